@@ -1,11 +1,13 @@
-//! Forces of a body's own: potentials of its place, of its deformation and of time.
+//! Forces of a body's own: potentials of its place, of its deformation and of time, body forces, frictions.
 //!
 //!   V = ½kx²                 ω = √(k/m)
 //!   V = b(P_xx² − 1)²        J s̈ = −4b s(s² − 1): from s₀ to √(2 − s₀²), T = 2∫₀^π dϑ/(2√(1 + a cos ϑ))/√(2b/J), a = s₀² − 1
 //!   V = 4z² − 3z cos 2t      m = ½, from rest: z = ½(cos 2t − cos 4t), its work is the kinetic energy
 
 use crate::soft::{self, alone, body};
-use gyration::tensor::Mat3;
+use gyration::body::{matrix, vector};
+use gyration::dynamics::{Workspace, rates};
+use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::Scene;
 use gyration_sim::sensitivity::{At, Sensitivities};
 use gyration_validation::{Case, Experiment, largest};
@@ -101,4 +103,77 @@ fn a_shaken_potential_does_work() {
     let (works, kinetic) = (run.column("work.load"), run.column("energy.kinetic"));
     let error = largest(works.iter().zip(&kinetic).map(|(work, energy)| work - energy));
     case.check("work less kinetic energy [J]", 0.0, error, 1e-9);
+}
+
+/// A body force −κx on a free body of the density ρ: p̈₀ = −(κ det P/ρ) p₀, P̈ = −(κ det P/ρ) P.
+#[test]
+fn a_central_body_force_draws_a_free_body_together() {
+    let case = Case { row: None, name: "free ellipsoid under b = −κx", source: "P̈ = −(κV det P/m) P" };
+    let (strength, density) = (700.0, 1000.0);
+    let place = Mat3::new(1.1, 0.2, -0.1, 0.0, 0.9, 0.3, 0.1, -0.2, 1.2);
+    let text = |place: &Mat3, position: [f64; 3]| {
+        let shape = "shape = { ellipsoid = { semi_axes = [0.1, 0.15, 0.07] } }";
+        let written = body(shape, "", place, &Mat3::zeros());
+        let force = "body_force = [\"-k*x\", \"-k*y\", \"-k*z\"]";
+        format!("{written}position = {position:?}\n{force}\nconstants = {{ k = {strength} }}")
+    };
+    let thrown = alone(&text(&place, [0.3, -0.4, 0.5]), (1e-11, 1e-13));
+    let (mut slopes, mut powers) = (vec![0.0; thrown.start.bodies.len()], vec![0.0; thrown.model.works().len()]);
+    let numbers = (&thrown.start.bodies[..]).into();
+    rates(&thrown.model, &mut Workspace::default(), 0.0, numbers, &mut slopes, &mut powers).unwrap();
+    let slots = thrown.model.slots(0);
+    let rate = -strength * place.determinant() / density;
+    let linear = vector(&slopes[slots.velocity()]) - rate * Vec3::new(0.3, -0.4, 0.5);
+    let own = matrix(&slopes[slots.rate()]) - rate * place;
+    case.check(
+        "largest error of p̈₀ and P̈ over κ/ρ",
+        0.0,
+        largest(linear.iter().chain(&own).map(|e| e.abs())) / 0.7,
+        1e-13,
+    );
+    // With P = s 1 and p₀ = 0: ½ ṡ² + (κ/ρ) s⁵/5 stays what it is.
+    let collapsing = alone(&text(&Mat3::identity(), [0.0; 3]), (1e-11, 1e-13)).motion_at(1.0);
+    let (s, speed) = (collapsing.placement.gradient.m11, collapsing.velocity.gradient_rate.m11);
+    let reference = -(0.4 * strength / density * (1.0 - s.powi(5))).sqrt();
+    case.check("ṡ of P = s 1 after 1 s [1/s]", reference, speed, 1e-9);
+}
+
+#[test]
+fn a_body_force_of_the_square_of_x_is_that_of_the_moments() {
+    let case = Case { row: None, name: "cube under b = x²", source: "∫x² = V(x₀² + s²/12)" };
+    let written = body(soft::CUBE, "", &Mat3::identity(), &Mat3::zeros());
+    let cube =
+        alone(&format!("{written}position = [0.3, 0, 0]\nbody_force = [\"x^2\", \"exp(x)\", 0]"), (1e-11, 1e-13));
+    let (mut slopes, mut powers) = (vec![0.0; cube.start.bodies.len()], vec![0.0; cube.model.works().len()]);
+    let numbers = (&cube.start.bodies[..]).into();
+    rates(&cube.model, &mut Workspace::default(), 0.0, numbers, &mut slopes, &mut powers).unwrap();
+    let acceleration = vector(&slopes[cube.model.slots(0).velocity()]);
+    case.check("p̈_x [m/s²]", (0.09 + 0.01 / 12.0) / 1000.0, acceleration.x, 1e-13);
+    // The mean of eˣ over the cube, by a rule.
+    let mean = (0.35_f64.exp() - 0.25_f64.exp()) / 0.1;
+    case.by("the mean of eˣ").check("p̈_y [m/s²]", mean / 1000.0, acceleration.y, 1e-13);
+}
+
+/// m v̇ = −c(1 + x²/l²) v: v = v₀ − (c/m)(x + x³/(3l²)).
+#[test]
+fn friction_that_grows_with_the_place_stops_a_rigid_ball() {
+    let case = Case { row: None, name: "rigid ball in friction c(1 + x²)", source: "v = v₀ − (c/m)(x + x³/3)" };
+    let zeros = "0, ".repeat(10);
+    let rows = |entry: &str| {
+        format!("[[{entry}, 0, {zeros}], {}]", format!("[0, 0, {zeros}],").repeat(11)).replace(", ]", "]")
+    };
+    let scaled = format!("{{ matrix = {}, scale = \"1 + x^2\" }}", rows("0.8"));
+    let entries = format!("{{ matrix = {} }}", rows("\"c*(1 + x^2)\""));
+    for (written, quantity) in
+        [(scaled, "speed after 2 s, scaled [m/s]"), (entries, "speed after 2 s, by entries [m/s]")]
+    {
+        let lines = format!("velocity = [1, 0, 0]\nlinear_friction = {written}\nconstants = {{ c = 0.8 }}");
+        let ball = alone(&format!("{}\n{lines}", soft::BALL), (1e-11, 1e-13)).until(2.0);
+        let run = ball.run();
+        let motion = run.end.motion(&ball.model, 0);
+        let x = motion.placement.position.x;
+        let reference = 1.0 - 0.8 / MASS * (x + x.powi(3) / 3.0);
+        case.check(quantity, reference, motion.velocity.velocity.x, 1e-10);
+        assert!(run.relative_residual() < 1e-10, "{:e}", run.relative_residual());
+    }
 }

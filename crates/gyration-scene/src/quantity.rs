@@ -13,6 +13,8 @@ use std::fmt;
 
 /// The schema keyword that holds the SI unit of a quantity.
 pub(crate) const UNIT: &str = "unit";
+/// The schema keyword of a number in whose place an expression may stand.
+pub(crate) const EXPRESSION: &str = "expression";
 /// The schema keyword of a number that may have any unit.
 pub(crate) const ANY_UNIT: &str = "anyUnit";
 /// The schema keyword that holds the words by which a quantity may be left to the program.

@@ -85,3 +85,90 @@ fn errors_of_expressions_come_with_those_of_the_rest() {
     let keys: Vec<&str> = found.as_slice().iter().map(|error| error.key.as_str()).collect();
     assert_eq!(keys, ["body.ball.potential", "body.ball.colour"]);
 }
+
+/// H = diag(entry, 0, …), its first entry at the mark if there is one.
+fn along_x(entry: &str) -> String {
+    let zeros = ["0"; 11].join(", ");
+    let others = vec![format!("[0, {zeros}]"); 11].join(", ");
+    format!("[[{entry}, {zeros}], {others}]")
+}
+
+#[test]
+fn body_forces_are_exact_where_they_are_polynomials() {
+    let error = |force: &str| {
+        let scene = scene(&format!("body_force = {force}"), &[]);
+        scene.built().model.bodies[0].own.body_force.as_ref().unwrap().error()
+    };
+    assert_eq!(error("[\"-0.1*x\", 0, \"2*sin(3*t)\"]"), None);
+    assert_eq!(error("[\"x^2*y\", \"z^3\", \"t*z\"]"), None);
+    // A rule of degree nine over 0.2 m of a wave of 2π m.
+    assert!(error("[\"sin(x)\", 0, 0]").unwrap() < 1e-14);
+    assert!(error("[\"sin(30*x)\", 0, 0]").unwrap() > 1e-9);
+}
+
+#[test]
+fn points_are_pulled_by_their_masses() {
+    let lines = "[[body]]\nname = \"p\"\nbody_force = [\"2*x\", 0, 0]\naffine = {}\nshape = { points = [\
+                 { mass = 1, at = [1, 0, 0] }, { mass = 3, at = [-1, 0, 0] }, { mass = 1, at = [0, 1, 0] }, \
+                 { mass = 1, at = [0, 0, 1] }, { mass = 1, at = [0, -1, -1] }] }";
+    let text = format!("{TIME}{lines}\n");
+    let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
+    let force = scene.built().model.bodies[0].own.body_force.as_ref().unwrap();
+    let place = Placement { position: Vec3::new(0.5, 0.0, 0.0), gradient: 2.0 * Mat3::identity() };
+    // Σ m 2x: 2 m p₀, whatever P.
+    let loads = force.loads(&place, 0.0, &mut Scratch::default()).unwrap();
+    assert!((loads.force.x - 7.0).abs() < 1e-14, "{}", loads.force.x);
+}
+
+#[test]
+fn frictions_of_any_body_may_change_with_its_place() {
+    let constant = scene(&format!("linear_friction = {{ matrix = {} }}", along_x("2")), &[]);
+    let own = &constant.built().model.bodies[0].own;
+    assert!(own.resistance.is_some() && own.frictions.is_empty());
+    for lines in [
+        format!("linear_friction = {{ matrix = {}, scale = \"1 + x^2\", frame = \"body\" }}", along_x("2")),
+        format!("linear_friction = {{ matrix = {} }}", along_x("\"2*(1 + x^2)\"")),
+        format!("affine = {{ linear_friction = {{ matrix = {}, scale = \"2 + sin(t)\" }} }}", along_x("2")),
+    ] {
+        let scene = scene(&lines, &[]);
+        let own = &scene.built().model.bodies[0].own;
+        assert!(own.resistance.is_none() && own.frictions.len() == 1, "{lines}");
+        assert_resolves_to_itself(&scene);
+    }
+    let scaled = scene(&format!("affine = {{ linear_friction = {{ matrix = {}, scale = 3 }} }}", along_x("2")), &[]);
+    assert!(scaled.built().model.bodies[0].own.frictions.is_empty());
+    assert_eq!(scaled.built().model.bodies[0].affine().unwrap().resistances.len(), 1);
+}
+
+#[test]
+fn errors_of_body_forces_and_frictions_stand_at_their_place() {
+    let friction = |entry: &str, more: &str| format!("linear_friction = {{ matrix = {}{more} }}", along_x(entry));
+    let rows = [
+        ("body_force = [\"x\", \"§q\", 0]".to_owned(), "body_force.1", "`q` is not known; variables: x, y, z, t"),
+        ("body_force = [0, 0, \"1 +§\"]".to_owned(), "body_force.2", "missing before the end"),
+        ("body_force = §[\"x\", \"y\"]".to_owned(), "body_force", "expected 3 items, found 2"),
+        ("body_force = [§true, 0, 0]".to_owned(), "body_force.0", "expected a number or a string with an expression"),
+        ("body_force = §[\"sqrt(x)\", 0, 0]".to_owned(), "body_force", "at the start `sqrt` has no"),
+        (friction("\"1 + §w\"", ""), "linear_friction.matrix.0.0", "`w` is not known"),
+        (friction("1", ", scale = \"§w\""), "linear_friction.scale", "`w` is not known"),
+        (friction("\"x^2\"", ", scale = §\"x\""), "linear_friction.scale", "the matrix has expressions already"),
+        (
+            friction("1", ", scale = \"-1 - x^2\"").replace("= {", "= §{"),
+            "linear_friction",
+            "not positive semi-definite",
+        ),
+        (friction("\"-1\"", "").replace("= {", "= §{"), "linear_friction", "the pivot of row 0 is -1e0"),
+        (friction("-1", "").replace("= [", "= §["), "linear_friction.matrix", "negative eigenvalue"),
+        (
+            friction("1", ", scale = \"1\"").replace("[[1, 0", "[[1, §1").replace("= [[1, §1", "= §[[1, 1"),
+            "linear_friction.matrix",
+            "not symmetric",
+        ),
+    ];
+    for (lines, key, message) in rows {
+        assert_error(&format!("{TIME}{BALL}{lines}\n"), &format!("body.ball.{key}"), message, "");
+    }
+    let bare = "[[body]]\nname = \"b\"\nbody_force = §[\"x\", 0, 0]\n\
+                mass_properties = { mass = 1, euler_tensor = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }\n";
+    assert_error(&format!("{TIME}{bare}"), "body.b.body_force", "no shape over which", "potential");
+}

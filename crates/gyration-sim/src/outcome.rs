@@ -1,5 +1,6 @@
 //! How a run ended, in words and in data.
 
+use gyration::load::FrictionFault;
 use gyration::model::Model;
 use gyration::{FormulaOf, Inadmissible, Quantity};
 use gyration_ode::{Cause, Failure, Limit};
@@ -59,6 +60,8 @@ pub enum Reason {
     SpringCollapsed,
     /// A formula of the scene has no value or derivative there.
     Undefined,
+    /// The matrix of a friction is none: it would feed energy in.
+    IndefiniteFriction,
     /// The tolerance cannot be met with any step.
     StepTooSmall,
     /// A number stopped being finite.
@@ -128,6 +131,20 @@ impl Stop {
             advice:
                 "Their law hardly forbids it: give its repulsion a larger exponent nu, d0 or alpha, so that they turn \
                      back before, or reduce the speed."
+                    .into(),
+        }
+    }
+
+    /// A stop because a friction of a body would feed energy in.
+    pub fn by_friction(body: &str, time: f64, fault: &FrictionFault) -> Self {
+        Self {
+            time,
+            reason: Reason::IndefiniteFriction,
+            body: Some(body.to_owned()),
+            what: format!("the linear_friction of body {body:?} is none there: {fault}"),
+            advice:
+                "Write a matrix that is symmetric and positive semi-definite wherever the body goes, or a constant \
+                     one with a `scale` that is never negative."
                     .into(),
         }
     }

@@ -125,6 +125,8 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
             | Load::Applied(_)
             | Load::Resistance(_)
             | Load::Potential(_)
+            | Load::BodyForce(_)
+            | Load::OwnFriction(_)
             | Load::Fluid(..) => 0.0,
         };
         Ok::<(), Infallible>(())

@@ -13,6 +13,7 @@ mod joined;
 mod meetings;
 mod modes;
 mod neighbours;
+mod own_forces;
 mod partings;
 mod pressed;
 mod random;

@@ -169,6 +169,48 @@ fn no_step_allocates_where_bodies_meet() {
     }
 }
 
+/// A stick and a rubber ball under forces of their own.
+const OWN: &str = r#"
+    [time]
+    end = 2.0
+    sample = 0.01
+    [world]
+    gravity = [0, 0, 0]
+    [constants]
+    k = "3 N/m"
+    [[body]]
+    name = "stick"
+    shape = { capsule = { radius = "1 cm", height = "3 cm" } }
+    density = "1.25 g/cm^3"
+    angular_velocity = [0, 20, 3]
+    position = [0.1, 0, 0]
+    potential = "0.5*k*(x^2 + y^2 + z^2) + 1e-4*(P_xx^2 - 1)^2"
+    body_force = ["100*sin(20*y)", "-50*x", "cos(t)"]
+    [[body]]
+    name = "ball"
+    shape = { sphere = { radius = "1 cm" } }
+    density = "1.25 g/cm^3"
+    affine = { material = { neo_hookean_log = { lambda = "600 Pa", mu = "300 Pa" } }, viscosity = 2 }
+    velocity = [-0.3, 0, 0]
+    potential = "0.5*k*x^2*(2 + sin(30*t))"
+    linear_friction = { scale = "1 + 100*x^2", matrix = [
+        [0.01, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+        [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+        [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+        [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+    ] }
+"#;
+
+#[test]
+fn no_step_allocates_under_forces_of_their_own() {
+    for (method, end) in [(Method::Explicit, 0.5), (Method::Implicit, 0.2)] {
+        let (allocations, s) = steps_after_the_first(&parsed(OWN), method, end);
+        println!("{method:?}: {allocations} allocations, {s:?}");
+        assert_eq!(allocations, 0, "{method:?}");
+        assert!(s.accepted() > 20, "{method:?}");
+    }
+}
+
 /// Looks at everything and keeps nothing.
 #[derive(Default)]
 struct Nowhere {

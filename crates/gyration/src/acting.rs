@@ -7,7 +7,9 @@ use crate::body::Body;
 use crate::contact::{Contact, LawKind};
 use crate::fluid::{Fluid, Inclusion};
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, BondEnd, Couple, InteractionEnd, LinearResistance, Loads, Potential, SpringEnd};
+use crate::load::{
+    Applied, BodyForce, BondEnd, Couple, InteractionEnd, LinearResistance, Loads, OwnFriction, Potential, SpringEnd,
+};
 use crate::neighbours::Pair;
 use crate::pair::{PairLaws, PairLoads, PairSlopes};
 use crate::support::{Support, SupportMotion};
@@ -81,6 +83,10 @@ pub enum Load<'a> {
     Resistance(&'a LinearResistance),
     /// A potential of the body alone.
     Potential(&'a Potential),
+    /// A force per volume.
+    BodyForce(&'a BodyForce),
+    /// Friction that changes with the place of the body and with time.
+    OwnFriction(&'a OwnFriction),
     /// The fluid around an inclusion.
     Fluid(&'a Fluid, &'a Inclusion),
 }
@@ -126,6 +132,15 @@ impl<'a> Load<'a> {
         if let Some(potential) = &body.own.potential {
             each(Self::Potential(potential))?;
         }
+        if let Some(body_force) = &body.own.body_force {
+            each(Self::BodyForce(body_force))?;
+        }
+        if let Some(resistance) = &body.own.resistance {
+            each(Self::Resistance(resistance))?;
+        }
+        for friction in &body.own.frictions {
+            each(Self::OwnFriction(friction))?;
+        }
         if let (Some(fluid), Some(inclusion)) = (fluid, &body.inclusion) {
             each(Self::Fluid(fluid, inclusion))?;
         }
@@ -141,6 +156,8 @@ impl<'a> Load<'a> {
             | Self::Applied(_)
             | Self::Resistance(_)
             | Self::Potential(_)
+            | Self::BodyForce(_)
+            | Self::OwnFriction(_)
             | Self::Fluid(..) => true,
         }
     }
@@ -161,7 +178,8 @@ impl<'a> Load<'a> {
             Self::Pair(pair) => pair_works(&pair.end.interaction.form.laws).collect(),
             Self::Spring(end) if end.interaction.law.damping > 0.0 => vec![Work::Load],
             Self::Bond(end) if end.interaction.works() => vec![Work::Load],
-            Self::Couple(_) | Self::Applied(_) => vec![Work::Load],
+            Self::Couple(_) | Self::Applied(_) | Self::BodyForce(_) => vec![Work::Load],
+            Self::OwnFriction(_) => vec![Work::Viscosity],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
             Self::Fluid(..) => vec![Work::Fluid],
             Self::Potential(potential) if !potential.is_energy() => vec![Work::Load],
@@ -180,7 +198,12 @@ impl<'a> Load<'a> {
             Self::Spring(_) => Some(Energy::Load),
             Self::Bond(end) => end.interaction.is_energy().then_some(Energy::Load),
             Self::Potential(potential) => potential.is_energy().then_some(Energy::Load),
-            Self::Couple(_) | Self::Applied(_) | Self::Resistance(_) | Self::Fluid(..) => None,
+            Self::Couple(_)
+            | Self::Applied(_)
+            | Self::Resistance(_)
+            | Self::BodyForce(_)
+            | Self::OwnFriction(_)
+            | Self::Fluid(..) => None,
         }
     }
 }

@@ -96,7 +96,8 @@ fn write_system_shapes(
 ) -> std::fmt::Result {
     writeln!(text, "\nShapes; of the points at half the size of each body from its centre the fastest moves by 1,")?;
     writeln!(text, "and δP is times that length.")?;
-    let width = bodies.iter().map(|body| body.name.chars().count()).max().unwrap_or(0);
+    let names = modes.iter().flat_map(|mode| &mode.shape.0).map(|(name, _)| name);
+    let width = names.map(|name| name.chars().count()).max().unwrap_or(0);
     writeln!(text, "mode  {:width$}{}", "", shape_heading())?;
     for (index, mode) in modes.iter().enumerate() {
         let ahead = mode.quadrature.iter().flat_map(|shapes| &shapes.0).map(|shape| ("+i".to_owned(), shape));

@@ -31,8 +31,10 @@ impl AffineParts {
     pub(super) fn of(written: &file::Affine, key: &Key, base: &Path, reporter: &mut Reporter<'_>) -> Option<Self> {
         let material = written.material.as_ref().map(|it| material(it, &key.key("material"), reporter));
         let internal = internal_friction(written, &key.key("internal_friction"), reporter);
-        let friction = written.linear_friction.as_ref().map(|it| {
-            let made = LinearResistance::friction(&square(&it.matrix), frame(it.frame));
+        // One that changes with place or time is a force of the body's own.
+        let constant = written.linear_friction.as_ref().and_then(|it| Some((it.constant()?, it.frame)));
+        let friction = constant.map(|(matrix, axes)| {
+            let made = LinearResistance::friction(&square(&matrix), frame(axes));
             accepted(made, &key.key("linear_friction").key("matrix"), reporter)
         });
         let gyroscopic = written.gyroscopic.as_ref().map(|it| {
@@ -163,7 +165,7 @@ fn couple(written: &file::Couple, key: &Key, base: &Path, reporter: &mut Reporte
 }
 
 /// What a matrix gives, if it is one of its kind.
-fn accepted<T>(made: Result<T, ResistanceError>, key: &Key, reporter: &mut Reporter<'_>) -> Option<T> {
+pub(super) fn accepted<T>(made: Result<T, ResistanceError>, key: &Key, reporter: &mut Reporter<'_>) -> Option<T> {
     made.map_err(|error| {
         let help = match error {
             ResistanceError::NotSemiDefinite { .. } => "write a matrix whose eigenvalues are all at least 0",
@@ -176,13 +178,13 @@ fn accepted<T>(made: Result<T, ResistanceError>, key: &Key, reporter: &mut Repor
     .ok()
 }
 
-fn frame(written: WrittenFrame) -> Frame {
+pub(super) fn frame(written: WrittenFrame) -> Frame {
     match written {
         WrittenFrame::Space => Frame::Space,
         WrittenFrame::Body => Frame::Body,
     }
 }
 
-fn square<const N: usize>(rows: &[[f64; N]; N]) -> SMatrix<f64, N, N> {
+pub(super) fn square<const N: usize>(rows: &[[f64; N]; N]) -> SMatrix<f64, N, N> {
     SMatrix::from_fn(|row, column| rows[row][column])
 }

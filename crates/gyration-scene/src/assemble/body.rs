@@ -66,13 +66,14 @@ impl AssembledBody {
         if kind == BodyKind::Rigid(RigidInertia::POINT) {
             point(placed, reporter);
         }
+        let own = own?.at(&place, (&shape, &mass.center), reporter)?;
         let body = Moving {
             kind,
             size: size(&shape, &mass, &arm.unwrap_or_default()),
             solid: solids.share(shape, mass),
             pin: arm.map(|point| Pin { point, anchor: place.place(&point) }),
             inclusion: inclusion?,
-            own: own?.at(&place, reporter)?,
+            own,
         };
         Some(Self { name: value.name.clone(), body: solids.share_body(body), start, springs })
     }

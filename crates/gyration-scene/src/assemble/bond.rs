@@ -3,7 +3,7 @@
 use super::body::{AssembledBody, lever};
 use super::context::SceneContext;
 use super::lattice::{Cells, check_cell};
-use super::own::accepted;
+use super::own::{accepted, constants};
 use super::start::placement;
 use crate::check::{PartialScene, Placed, Reporter};
 use crate::file::{self, BondDamping, OneOrMany};
@@ -16,7 +16,7 @@ use gyration::load::{
     InvariantPotential, Stiffness6,
 };
 use gyration::tensor::{Mat3, Vec3};
-use gyration_expression::{Expression, Scratch, check_constants};
+use gyration_expression::{Expression, Scratch};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -210,20 +210,7 @@ impl Written<'_> {
         reporter: &mut Reporter<'_>,
     ) -> Option<Vec<(String, f64)>> {
         let Placed { key, value, .. } = self.placed;
-        let tables =
-            [(key.key("constants"), value.constants.as_ref()), (Key::root().key("constants"), context.constants)];
-        let mut all = Vec::new();
-        for (key, table) in tables {
-            for (name, value) in table.into_iter().flatten() {
-                let constant = [(name.clone(), value.0)];
-                if let Err(error) = check_constants(variables, &constant) {
-                    reporter.note(&key.key(name), error.to_string(), "rename it, here and where it stands");
-                    return None;
-                }
-                all.extend(constant);
-            }
-        }
-        Some(all)
+        constants((key.key("constants"), value.constants.as_ref()), context, variables, reporter)
     }
 
     /// Whether it has loads and derivatives at the start; notes why not.

@@ -16,6 +16,10 @@ use std::collections::BTreeSet;
 
 /// Keys whose values are checked by themselves.
 const ALONE: [&str; 3] = ["orientation", "mass_properties", "spring"];
+/// Expressions, and what they need: constants, and where the body starts.
+const OWN: [&str; 4] = ["constants", "potential", "body_force", "linear_friction"];
+const PLACE: [&str; 8] =
+    ["constants", "shape", "mass_properties", "position", "orientation", "gradient", "contractile", "pin"];
 /// What a body is made of needs to know whether it has a volume, which these say.
 const VOLUME: [&str; 2] = ["shape", "mass_properties"];
 /// The shape is checked together with these: parts of a union may take the body's density.
@@ -43,8 +47,8 @@ pub(crate) fn salvage(document: &Document, context: &SceneContext, diagnostics: 
         if written.contains_key("shape") && !WEIGHTS.iter().any(|name| is_dirty(name)) {
             checked.push("shape");
         }
-        if written.contains_key("potential") && !is_dirty("constants") {
-            checked.extend(["potential", "constants"]);
+        if !PLACE.iter().any(|name| is_dirty(name)) {
+            checked.extend(OWN.into_iter().filter(|name| written.contains_key(*name)));
         }
         if !VOLUME.iter().any(|name| is_dirty(name)) {
             checked.extend(["affine", "contractile"].into_iter().filter(|name| written.contains_key(*name)));

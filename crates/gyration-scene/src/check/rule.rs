@@ -2,10 +2,10 @@
 //!
 //! Read are the keywords that the file's types bring about: `$ref`, `type`, `properties`, `required`, `items`,
 //! `minItems`, `maxItems`, `oneOf` (words, tables with one key of several, or both), `anyOf` (one, or an array of them;
-//! an array, or a table), `minimum`, `maximum`, `exclusiveMinimum`, and the format's own `unit` and `anyUnit`. A test
-//! makes sure that nothing else occurs.
+//! an array, or a table), `minimum`, `maximum`, `exclusiveMinimum`, and the format's own `unit`, `expression` and
+//! `anyUnit`. A test makes sure that nothing else occurs.
 
-use crate::quantity::{ANY_UNIT, UNIT, WORDS};
+use crate::quantity::{ANY_UNIT, EXPRESSION, UNIT, WORDS};
 use crate::schema::SCHEMA;
 use crate::units::{Unit, parse_unit};
 use serde_json::Value as Json;
@@ -53,6 +53,8 @@ pub(super) enum Rule {
     Quantity { symbol: String, unit: Unit, example: String, words: Vec<String> },
     /// A number in SI units, or a string with any unit.
     AnyQuantity,
+    /// A number, or a string with an expression.
+    Expression,
     /// Any string.
     Text,
     /// One of these strings, or a table with one of these keys; there may be none of either.
@@ -146,6 +148,9 @@ fn rule(schema: &Json) -> Rule {
             _ => Rule::Unknown,
         };
     }
+    if schema.get(EXPRESSION).is_some() {
+        return Rule::Expression;
+    }
     if schema.get(ANY_UNIT).is_some() {
         return Rule::AnyQuantity;
     }
@@ -218,7 +223,12 @@ mod tests {
             }
             Rule::Array { item, .. } | Rule::Several(item) | Rule::Named(item) => assert_understood(item, place),
             Rule::Either(array, table) => [array, table].iter().for_each(|kind| assert_understood(kind, place)),
-            Rule::Boolean | Rule::Number | Rule::Quantity { .. } | Rule::AnyQuantity | Rule::Text => {}
+            Rule::Boolean
+            | Rule::Number
+            | Rule::Quantity { .. }
+            | Rule::AnyQuantity
+            | Rule::Expression
+            | Rule::Text => {}
         }
     }
 

@@ -58,7 +58,9 @@ impl Walker<'_> {
                 }
                 self.items(items, key, item);
             }
-            (Value::Number(number), Rule::Number) => self.limits(*number, node, key, field.limits, ""),
+            (Value::Number(number), Rule::Number | Rule::Expression) => {
+                self.limits(*number, node, key, field.limits, "")
+            }
             (Value::Number(number), Rule::Quantity { symbol, .. }) => {
                 self.limits(*number, node, key, field.limits, symbol);
             }
@@ -85,7 +87,9 @@ impl Walker<'_> {
                 let help = suggest::fix(text, words.iter().map(String::as_str), "one of");
                 self.diagnostics.at(node.span, key, format!("\"{text}\" is not known here"), help);
             }
-            (Value::Text(_), Rule::Text) | (Value::Boolean(_), Rule::Boolean) | (_, Rule::Unknown) => {}
+            (Value::Text(_), Rule::Text | Rule::Expression)
+            | (Value::Boolean(_), Rule::Boolean)
+            | (_, Rule::Unknown) => {}
             (_, rule) => {
                 let expected = self.expected(rule);
                 let help = mismatch_help(&node.value, rule, &expected);
@@ -185,6 +189,7 @@ impl Walker<'_> {
                 format!("a number in {symbol} or a string such as \"{example}\"{}", or(words))
             }
             Rule::AnyQuantity => "a number or a string such as \"100 N/m\"".to_owned(),
+            Rule::Expression => "a number or a string with an expression".to_owned(),
             Rule::Text => "a string".to_owned(),
             Rule::Boolean => "true or false".to_owned(),
             Rule::Choice { words, tags } => choices(words, tags),

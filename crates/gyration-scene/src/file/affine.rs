@@ -5,8 +5,9 @@
 
 use super::Material;
 use crate::quantity::{NonNegative, Torque, Viscosity};
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// A body that deforms homogeneously. Without a material it is free and compressible.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -51,11 +52,67 @@ pub struct InternalFriction {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LinearFriction {
-    /// H, 12×12 in SI units; symmetric, positive semi-definite.
-    pub matrix: [[f64; 12]; 12],
+    /// H, 12×12 in SI units; symmetric, positive semi-definite. An entry in quotes is an expression of x, y, z, P_xx …
+    /// P_zz and t.
+    pub matrix: [[Entry; 12]; 12],
+    /// What H is multiplied by: an expression of x, y, z, P_xx … P_zz and t, never negative.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<Entry>,
     /// The axes in which H is constant.
     #[serde(default)]
     pub frame: Frame,
+}
+
+/// A number, or an expression in quotes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Entry {
+    /// A number.
+    Number(f64),
+    /// An expression.
+    Expression(Box<str>),
+}
+
+impl JsonSchema for Entry {
+    fn schema_name() -> Cow<'static, str> {
+        "Entry".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A number, or a string with an expression.", "type": ["number", "string"],
+            "expression": true, "examples": ["1 + x^2"],
+        })
+    }
+}
+
+impl Entry {
+    /// The number, if it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(*number),
+            Self::Expression(_) => None,
+        }
+    }
+}
+
+impl LinearFriction {
+    /// H, if it is the same at all places and times.
+    pub(crate) fn constant(&self) -> Option<[[f64; 12]; 12]> {
+        let scale = self.scale.as_ref().map_or(Some(1.0), Entry::number)?;
+        self.numbers().map(|rows| rows.map(|row| row.map(|entry| scale * entry)))
+    }
+
+    /// The matrix, if it has numbers alone.
+    pub(crate) fn numbers(&self) -> Option<[[f64; 12]; 12]> {
+        let mut numbers = [[0.0; 12]; 12];
+        for (row, entries) in numbers.iter_mut().zip(&self.matrix) {
+            for (number, entry) in row.iter_mut().zip(entries) {
+                *number = entry.number()?;
+            }
+        }
+        Some(numbers)
+    }
 }
 
 /// A load −H (velocity; L row by row) that does no work.

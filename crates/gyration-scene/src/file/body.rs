@@ -1,6 +1,6 @@
 //! `[[body]]`: what moves.
 
-use super::{Affine, Contractile, Inclusion, OneOrMany, Orientation, Shape};
+use super::{Affine, Contractile, Entry, Inclusion, LinearFriction, OneOrMany, Orientation, Shape};
 use crate::quantity::{
     AngularVelocity, AnyQuantity, Density, EulerMoment, GradientRate, Length, Mass, NonNegative, Positive,
     SpringDamping, Stiffness, Velocity,
@@ -70,6 +70,13 @@ pub struct Body {
     /// Its own potential V (J), an expression of x, y, z (m, centre of mass), P_xx … P_zz and t (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub potential: Option<Box<str>>,
+    /// Its own force per volume b (N/m³; of points per mass, N/kg), three expressions of x, y, z (m, a point of space)
+    /// and t (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body_force: Option<Box<[Entry; 3]>>,
+    /// Friction linear in the velocity and the velocity gradient, of a body of any kind.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub linear_friction: Option<Box<LinearFriction>>,
     /// Numbers with names for the expressions of the body, before those of the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub constants: Option<Box<BTreeMap<String, AnyQuantity>>>,

@@ -22,7 +22,7 @@ mod support;
 mod time;
 mod world;
 
-pub use affine::{Affine, Couple, Frame, Gyroscopic, InternalFriction, LinearFriction};
+pub use affine::{Affine, Couple, Entry, Frame, Gyroscopic, InternalFriction, LinearFriction};
 pub use body::{Body, MassProperties, Rigid, Spring};
 pub use bond::{Bond, BondDamping};
 pub use contact::{Adhesion, Contact, Measure, Reach, Repulsion, Resistance};

@@ -278,11 +278,25 @@ impl Island {
         self.note_path_bounds(&report);
         self.note_parting();
         self.note_rest(plan, report.end);
+        self.check_frictions(report.end)?;
         if self.system.may_be_given_up() {
             // Gaps and forces at its end are not all known.
             return Err(Stop::by_interruption(time));
         }
         Ok(report)
+    }
+
+    /// Whether the frictions that change with the place are such at the end of the last step [s].
+    fn check_frictions(&mut self, time: f64) -> Result<(), Stop> {
+        let (model, workspace) = self.system.observed();
+        for (index, (body, end)) in model.bodies.iter().zip(&self.step_ends).enumerate() {
+            if body.own.frictions.is_empty() {
+                continue;
+            }
+            let checked = workspace.check_frictions(body, &end.motion.placement, time);
+            checked.map_err(|fault| Stop::by_friction(model.name(index), time, &fault))?;
+        }
+        Ok(())
     }
 
     /// Restarts the stepper after a change of the model.

@@ -4,6 +4,7 @@ use super::contraction::contraction;
 use crate::format::significant;
 use gyration::affine::Viscosity;
 use gyration::body::{Affine, Body, BodyKind};
+use gyration::load::OwnForces;
 use gyration::material::Material;
 use serde::Serialize;
 
@@ -93,11 +94,21 @@ fn material_in_words(material: &Material) -> String {
 }
 
 fn own_forces(body: &Body) -> Vec<String> {
-    let potential = body.own.potential.as_ref().map(|potential| match potential.is_energy() {
+    let OwnForces { potential, body_force, resistance, frictions } = &body.own;
+    let potential = potential.as_ref().map(|potential| match potential.is_energy() {
         true => "potential".to_owned(),
         false => "potential that changes in time".to_owned(),
     });
-    potential.into_iter().collect()
+    let body_force = body_force.as_ref().map(|force| match force.error() {
+        None => "body force, integrated exactly".to_owned(),
+        Some(error) => {
+            let (points, error) = (force.points(), significant(error, 2));
+            format!("body force over {points} points, wrong by {error} of it at the start")
+        }
+    });
+    let constant = resistance.as_ref().map(|_| "linear friction".to_owned());
+    let varying = (!frictions.is_empty()).then(|| "linear friction that changes with place or time".to_owned());
+    [potential, body_force, constant, varying].into_iter().flatten().collect()
 }
 
 fn loads(affine: &Affine) -> Vec<String> {

@@ -60,6 +60,8 @@ pub fn contact_parts(at: &BodyAt, scratch: &mut Scratch) -> Result<ContactParts,
             | Load::Applied(_)
             | Load::Resistance(_)
             | Load::Potential(_)
+            | Load::BodyForce(_)
+            | Load::OwnFriction(_)
             | Load::Fluid(..) => {}
         }
         Ok(())

@@ -105,6 +105,19 @@ impl Acting {
                 }
                 self.total += loads;
             }
+            Load::BodyForce(body_force) => {
+                let loads = body_force.loads(&at.motion.placement, at.time, &mut scratch.formulas);
+                let loads = loads.map_err(undefined(at, FormulaOf::BodyForce))?;
+                self.powers[Work::Load] += loads.power(&velocity.velocity, &velocity.gradient_rate);
+                self.total += loads;
+            }
+            Load::OwnFriction(friction) => {
+                let place = (&at.motion.placement, at.time);
+                let loads = friction.loads(place, &at.inverse(), velocity, &mut scratch.formulas);
+                let loads = loads.map_err(undefined(at, FormulaOf::Friction))?;
+                self.powers[Work::Viscosity] += loads.power(&velocity.velocity, &velocity.gradient_rate);
+                self.total += loads;
+            }
             Load::Fluid(..) => {
                 let Some(loads) = fluid(at)? else { return Ok(()) };
                 self.powers[Work::Fluid] += loads.power(&velocity.velocity, &velocity.gradient_rate);
@@ -167,6 +180,15 @@ pub(super) fn add_slopes(
             let added = slopes.add_potential(potential, placement, at.time, &mut scratch.formulas);
             added.map_err(undefined(at, FormulaOf::Potential))?;
         }
+        Load::BodyForce(body_force) => {
+            let added = slopes.add_body_force(body_force, &at.motion.placement, at.time, &mut scratch.formulas);
+            added.map_err(undefined(at, FormulaOf::BodyForce))?;
+        }
+        Load::OwnFriction(friction) => {
+            let (place, velocity) = ((&at.motion.placement, at.time), &at.motion.velocity);
+            let added = slopes.add_own_friction(friction, place, &at.inverse(), velocity, &mut scratch.formulas);
+            added.map_err(undefined(at, FormulaOf::Friction))?;
+        }
         Load::Fluid(..) => {
             if let (Some(gyration), Some(immersed)) = (at.gyration(), immersion(at)?) {
                 immersed.add_to(slopes, gyration);
@@ -207,6 +229,8 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                 | Load::Couple(_)
                 | Load::Applied(_)
                 | Load::Resistance(_)
+                | Load::BodyForce(_)
+                | Load::OwnFriction(_)
                 | Load::Fluid(..) => 0.0,
             };
         }

@@ -34,10 +34,13 @@ pub(crate) use contractile::ContractileMotion;
 pub(crate) use history::RigidHistory;
 pub(crate) use immersed::{RigidImmersion, immersion};
 
+use crate::body::Body;
 use crate::contact::ContactScratch;
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
 use crate::instant::{Instant, Instants, PairGaps};
+use crate::kinematics::Placement;
+use crate::load::FrictionFault;
 use crate::model::Model;
 use crate::pair::PairScratch;
 use crate::state::State;
@@ -91,6 +94,15 @@ impl Workspace {
         let mut instant = instants.read(model, state.time, state.numbers())?;
         inertialess::solve(&mut instant, scratch)?;
         Ok((instant, scratch))
+    }
+
+    /// Whether the frictions of a body that change with its place are such there.
+    ///
+    /// # Errors
+    /// [`FrictionFault`] of the first one whose matrix has no value, is not symmetric or not positive semi-definite.
+    pub fn check_frictions(&mut self, body: &Body, placement: &Placement, time: f64) -> Result<(), FrictionFault> {
+        let formulas = &mut self.scratch.formulas;
+        body.own.frictions.iter().try_for_each(|friction| friction.check(placement, time, formulas))
     }
 
     /// The slab between the bodies of each listed pair; infinite where they are out of reach.

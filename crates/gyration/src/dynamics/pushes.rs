@@ -12,13 +12,13 @@ use crate::inadmissible::{FormulaOf, Inadmissible};
 use crate::instant::BodyAt;
 use crate::pair::PairLoads;
 
-/// One of the forces on a body that come from a support, a spring, a bond, another body or a potential.
+/// One of the forces on a body that come from a support, a spring, a bond, another body or a field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Push {
     /// |f| [N].
     pub force: f64,
     /// The length on which it depends [m]: the gap of a contact, the length of a spring or bond, the size of a body in
-    /// a potential.
+    /// a field.
     pub gap: f64,
     /// What its energy is rounded to [J], where that is more than the last digit; each pair has it once.
     ///
@@ -26,7 +26,7 @@ pub struct Push {
     pub rounding: f64,
 }
 
-/// Hands the forces of contacts, springs, pairs and a potential on a body to `each`.
+/// Hands the forces of contacts, springs, pairs, a potential and a force per volume on a body to `each`.
 ///
 /// # Errors
 /// [`Inadmissible`] where the state is outside the model.
@@ -64,7 +64,12 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
                 let force = loads.map_err(undefined(at, FormulaOf::Potential))?.force.norm();
                 each(Push { force, gap: at.body.size, rounding: 0.0 });
             }
-            Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::Fluid(..) => {}
+            Load::BodyForce(body_force) => {
+                let loads = body_force.loads(&at.motion.placement, at.time, &mut scratch.formulas);
+                let force = loads.map_err(undefined(at, FormulaOf::BodyForce))?.force.norm();
+                each(Push { force, gap: at.body.size, rounding: 0.0 });
+            }
+            Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::OwnFriction(_) | Load::Fluid(..) => {}
         }
         Ok(())
     })

@@ -5,11 +5,13 @@
 //! material point adds F to f and F ⊗ X to M. Source: `docs/theory-affine.md`.
 
 mod applied;
+mod body_force;
 mod bond;
 mod couple;
 mod formula;
 mod interactions;
 mod own;
+mod own_friction;
 mod potential;
 mod resistance;
 mod slopes;
@@ -17,6 +19,7 @@ mod spring;
 mod wrench;
 
 pub use applied::Applied;
+pub use body_force::{BodyForce, FieldOfForce, POINT_NAMES};
 pub use bond::{
     Bond, BondAxes, BondEnd, BondFault, BondLaw, BondLoads, BondPlace, BondSlopes, BondStiffness, DISTANCE_NAMES,
     Dashpot, INVARIANT_NAMES, InvariantPotential, Stiffness6,
@@ -25,6 +28,7 @@ pub use couple::Couple;
 pub use formula::{Formula, PLACE_NAMES};
 pub use interactions::{Interaction, InteractionEnd, Interactions, Party};
 pub use own::OwnForces;
+pub use own_friction::{FrictionEntry, FrictionFault, FrictionMatrix, OwnFriction};
 pub use potential::Potential;
 pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};
 pub(crate) use resistance::{mirrored, semi_definite};

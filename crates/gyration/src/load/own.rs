@@ -1,17 +1,23 @@
 //! The forces that a scene writes for one body, as formulas of its place and of time.
 
-use super::Potential;
+use super::{BodyForce, LinearResistance, OwnFriction, Potential};
 
 /// Forces of a body's own.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OwnForces {
     /// V(p₀, P, t).
     pub potential: Option<Box<Potential>>,
+    /// b(x, t) over its volume.
+    pub body_force: Option<Box<BodyForce>>,
+    /// Friction, linear in (ṗ₀, L), of a matrix that is the same everywhere.
+    pub resistance: Option<Box<LinearResistance>>,
+    /// Frictions whose matrices change with place or time.
+    pub frictions: Vec<OwnFriction>,
 }
 
 impl OwnForces {
     /// Whether one of them may hold the body at a place.
     pub fn hold(&self) -> bool {
-        self.potential.as_ref().is_some_and(|potential| potential.acts())
+        self.body_force.is_some() || self.potential.as_ref().is_some_and(|potential| potential.acts())
     }
 }

@@ -143,6 +143,11 @@ impl LinearResistance {
         Ok(Self { matrix: mirrored(matrix, -1.0)?, frame, dissipates: false })
     }
 
+    /// A friction of a matrix that is not checked.
+    pub(super) fn of_matrix(matrix: Mat12, frame: Frame) -> Self {
+        Self { matrix, frame, dissipates: true }
+    }
+
     /// Whether it takes energy.
     pub fn dissipates(&self) -> bool {
         self.dissipates

@@ -11,7 +11,11 @@ use gyration::contact::{Adhesion, AreaMeasure, Contact, ContactLaw, Damping, Fri
 use gyration::dynamics::jacobian;
 use gyration::dynamics::{Workspace, rates};
 use gyration::fluid::{FixedForm, Fluid, Form, History, Inclusion};
-use gyration::load::{Applied, Couple, Frame, LinearResistance, Mat12, OwnForces, Potential, Spring, SpringLaw};
+use gyration::kinematics::Placement;
+use gyration::load::{
+    Applied, BodyForce, Couple, FieldOfForce, Formula, Frame, FrictionEntry, FrictionMatrix, LinearResistance, Mat12,
+    OwnForces, OwnFriction, Potential, Spring, SpringLaw,
+};
 use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
 use gyration::model::Model;
 use gyration::shape::{Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
@@ -162,14 +166,39 @@ pub fn controlled(model: Model) -> Model {
     model
 }
 
-/// The same bodies in potentials without any symmetry, one that changes in time and one that does not by turns.
+/// The same bodies under forces of their own without any symmetry: a potential that changes in time or not, a body
+/// force that is a polynomial or not, friction of a matrix with a scale or of formulas, by turns.
 pub fn with_own_forces(model: Model) -> Model {
     let still = "k*sin(x*P_xy + 0.3*z) + 0.7*y^2*P_zz^2 + exp(0.2*P_yx - 0.1*P_zy) + sqrt(1 + x^2 + P_xx^2)";
     let waving = "k*(P_xx*P_yz - 0.5)^2*cos(3*t) + tanh(x - y*t)*z + 0.3*P_zx^3*P_xz/(2 + sin(t)) + ln(3 + P_yy)";
+    let quadratic = ["0.4*x^2 - y*z*cos(t)", "k*x*y", "0.3 - z"];
+    let smooth = ["sin(2*x + y)", "exp(-0.2*z^2)*x", "tanh(x*y*z + t)"];
     let constants = [("k".to_owned(), 1.3)];
+    let formula = |text: &str| Formula::parse(text, &constants).unwrap();
+    let root = Mat12::from_fn(|i, j| 0.2 * (0.9 * i as f64 + 1.1 * (j * j) as f64).sin());
+    let square = root * root.transpose();
     let own = |(index, body): (usize, &Arc<Body>)| {
         let potential = Potential::parse([still, waving][index % 2], &constants).unwrap();
-        Body { own: OwnForces { potential: Some(Box::new(potential)) }, ..(**body).clone() }
+        let field = FieldOfForce::parse([quadratic, smooth][index / 2 % 2], &constants).unwrap();
+        let place = Placement { position: Vec3::zeros(), gradient: Mat3::identity() };
+        let body_force = BodyForce::new(field, &body.solid.shape, &body.solid.mass.center, (&place, 0.0)).unwrap();
+        let scaled = FrictionMatrix::Scaled(Box::new(square), formula("1 + k*x^2*P_xx^2 + sin(t)^2*P_yz^2"));
+        let entry = |row: usize, column: usize| {
+            let text = format!("{:?}*(1 + 0.3*x*P_yx) + {:?}*z^2", square[(row, column)], square[(row, column)]);
+            FrictionEntry::Formula(Box::new(formula(&text)))
+        };
+        let entries = || std::array::from_fn(|row| std::array::from_fn(|column| entry(row, column)));
+        let by_entries = || OwnFriction::new(FrictionMatrix::Entries(Box::new(entries())), Frame::Space);
+        let own = OwnForces {
+            potential: Some(Box::new(potential)),
+            body_force: Some(Box::new(body_force)),
+            resistance: Some(Box::new(LinearResistance::friction(&square, Frame::Body).unwrap())),
+            // A gross of formulas takes a tenth of a millisecond.
+            frictions: std::iter::once(OwnFriction::new(scaled, Frame::Body))
+                .chain((index % 3 == 0).then(by_entries))
+                .collect(),
+        };
+        Body { own, ..(**body).clone() }
     };
     let bodies: Vec<Body> = model.bodies.iter().enumerate().map(own).collect();
     model.with_bodies(bodies)

@@ -41,6 +41,8 @@ pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usiz
             | Load::Applied(_)
             | Load::Resistance(_)
             | Load::Potential(_)
+            | Load::BodyForce(_)
+            | Load::OwnFriction(_)
             | Load::Fluid(..) => {
                 return Ok(());
             }
