@@ -22,6 +22,7 @@ mod gallery_basset;
 mod gallery_bounce;
 mod gallery_contract;
 mod gallery_dice;
+mod gallery_double_well;
 mod gallery_elastic;
 mod gallery_euler_disk;
 mod gallery_fluid;

@@ -24,6 +24,7 @@ static SCENES: &[(&str, &str)] = &[
     ("elastic-roll", include_str!("../../../scenes/elastic-roll.toml")),
     ("elastic-oscillate", include_str!("../../../scenes/elastic-oscillate.toml")),
     ("spin-flatten", include_str!("../../../scenes/spin-flatten.toml")),
+    ("double-well", include_str!("../../../scenes/double-well.toml")),
     ("drop-skew", include_str!("../../../scenes/drop-skew.toml")),
     ("pinned-strain", include_str!("../../../scenes/pinned-strain.toml")),
     ("stiff-limit", include_str!("../../../scenes/stiff-limit.toml")),
