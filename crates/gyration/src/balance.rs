@@ -12,7 +12,7 @@ use crate::contractile;
 use crate::dynamics::{Acting, ContractileMotion, Scratch, Workspace, acting, affine_balance, gap_at, stored_energy};
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, Instant, KindAt, MotionAt};
-use crate::kinematics::Velocity;
+use crate::kinematics::{Placement, Velocity};
 use crate::ledger::Energy;
 use crate::model::Model;
 use crate::shape::{MassPoint, Points, Shape};
@@ -88,15 +88,16 @@ pub fn observe_at(at: &BodyAt, acting: &Acting, scratch: &mut Scratch) -> Result
     };
     let MotionAt { body, motion, .. } = **at;
     let BodyMotion { placement, velocity } = motion;
+    let position = at.model.in_space(at.index, &placement.position);
     let affine_momentum = placement.gradient * body.solid.mass.euler_tensor * velocity.gradient_rate.transpose();
     let linear_momentum = body.solid.mass.mass * velocity.velocity;
     Ok(BodyObservation {
-        motion: *motion,
+        motion: BodyMotion { placement: Placement { position, ..*placement }, velocity: *velocity },
         gap: gap_at(at, scratch)?,
         contact_force: acting.contact.force,
         linear_momentum,
         // K_ij = ∫ρ x_i ẋ_j: angular momentum is ε_ijk K_jk = −axial(K)_i in the convention of `axial`.
-        angular_momentum: placement.position.cross(&linear_momentum) - crate::tensor::axial(&affine_momentum),
+        angular_momentum: position.cross(&linear_momentum) - crate::tensor::axial(&affine_momentum),
         affine_momentum,
         pressure,
         effort,
@@ -159,7 +160,10 @@ pub fn energies_at(instant: &Instant, scratch: &mut Scratch, values: &mut [f64])
             let at = instant.at(index);
             *value += match energy {
                 Energy::Kinetic => kinetic_energy(at.body, at.motion),
-                Energy::Gravity => -at.body.solid.mass.mass * model.gravity.dot(&at.motion.placement.position),
+                Energy::Gravity => {
+                    let position = model.in_space(at.index, &at.motion.placement.position);
+                    -at.body.solid.mass.mass * model.gravity.dot(&position)
+                }
                 Energy::Elastic => elastic_energy(&at),
                 Energy::Contact | Energy::Load => stored_energy(&at, scratch, *energy)?,
             };

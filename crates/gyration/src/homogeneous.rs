@@ -56,7 +56,7 @@ pub fn observe_homogeneous(
     let velocity_gradient = rate * inverse;
     let affine_moment = p * moment.transpose();
     let momentum = p * body.solid.mass.euler_tensor * rate.transpose();
-    let arm = motion.placement.position - origin;
+    let arm = at.model.in_space(at.index, &motion.placement.position) - origin;
     let stretches = polar.stretch.symmetric_eigenvalues();
     let mut stretches: [f64; 3] = stretches.into();
     stretches.sort_by(|a, b| b.total_cmp(a));

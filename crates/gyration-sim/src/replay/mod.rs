@@ -59,7 +59,7 @@ impl Replay {
     /// `Record` if there is no such row, or it cannot be read.
     pub fn state(&mut self, row: usize) -> Result<State, ReplayError> {
         let row = self.window.row(&self.model, row)?;
-        let starts = self.model.bodies.iter().enumerate().map(|(index, body)| start(body, &row, index));
+        let starts = (0..self.model.bodies.len()).map(|index| start(&self.model, &row, index));
         let mut state = State::start(&self.model, &starts.collect::<Vec<_>>());
         state.time = row.time();
         state.works.copy_from_slice(row.works());
@@ -111,10 +111,11 @@ impl Replay {
 }
 
 /// A body's part of the state from its row: the inverse of `State::motion`.
-fn start(body: &Body, row: &WindowRow, index: usize) -> Start {
-    let placement = Placement { position: row.position(index), gradient: row.gradient(index) };
+fn start(model: &Model, row: &WindowRow, index: usize) -> Start {
+    let position = model.in_cell(index, &row.position(index));
+    let placement = Placement { position, gradient: row.gradient(index) };
     let velocity = Velocity { velocity: row.velocity(index), gradient_rate: row.gradient_rate(index) };
-    match &body.kind {
+    match &model.bodies[index].kind {
         BodyKind::Rigid(_) => {
             let rotation = Rotation3::from_matrix_unchecked(placement.gradient);
             let q = UnitQuaternion::from_rotation_matrix(&rotation);

@@ -163,9 +163,14 @@ impl Model {
         Self { origins, ..self }
     }
 
-    /// Where the cell of a body is [m]: its place in space is that in the state from there.
-    pub fn origin(&self, body: usize) -> Vec3 {
-        self.origins.get(body).copied().unwrap_or_else(Vec3::zeros)
+    /// The place in space [m] of one in the cell of a body.
+    pub fn in_space(&self, body: usize, place: &Vec3) -> Vec3 {
+        self.origins.get(body).map_or(*place, |origin| place + origin)
+    }
+
+    /// The place in the cell of a body [m] of one in space.
+    pub fn in_cell(&self, body: usize, place: &Vec3) -> Vec3 {
+        self.origins.get(body).map_or(*place, |origin| place - origin)
     }
 
     /// The model with laws between its bodies and its supports.
