@@ -58,6 +58,8 @@ pub enum Reason {
     Collapsed,
     /// A spring lost its direction.
     SpringCollapsed,
+    /// A body of a lattice left the surroundings of its place.
+    Strayed,
     /// A formula of the scene has no value or derivative there.
     Undefined,
     /// The matrix of a friction is none: it would feed energy in.
@@ -259,6 +261,13 @@ impl Stop {
                 Reason::SpringCollapsed,
                 format!("the formula {} has no derivative where its points coincide", between(model, bond)),
                 "Write a law with V′ = 0 at l = 0, or choose other points.".to_string(),
+            ),
+            Quantity::Stray => (
+                Reason::Strayed,
+                format!("body {body:?} has come {:e} m away from its place in the lattice", left.value),
+                "Which bodies meet across cells is listed by where they start: let them stay within half a cell of \
+                 there, or write a larger cell that holds several."
+                    .to_string(),
             ),
             Quantity::Volume => (
                 Reason::Inverted,

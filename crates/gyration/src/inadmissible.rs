@@ -48,6 +48,9 @@ pub enum Quantity {
         /// Number of the rule by which they meet.
         rule: usize,
     },
+    /// How far a body of a lattice has come away from its start in its cell, which must be less than what the pairs
+    /// across cells were listed for [m].
+    Stray,
     /// det P, which must be > 0: the body is not turned inside out.
     Volume,
     /// det G, which must be > 0: the relaxed body has a volume.

@@ -116,6 +116,13 @@ impl State {
     pub fn motion(&self, model: &Model, body: usize) -> BodyMotion {
         BodyMotion::read(&model.bodies[body], model.slots(body), &self.bodies)
     }
+
+    /// The same with the place in space of a body of a lattice, where its own is that in its cell.
+    pub fn motion_in_space(&self, model: &Model, body: usize) -> BodyMotion {
+        let mut motion = self.motion(model, body);
+        motion.placement.position = model.in_space(body, &motion.placement.position);
+        motion
+    }
 }
 
 /// G from its slot, or as it is prescribed at a time [s].

@@ -19,16 +19,16 @@ const MOST_CONTACTS: usize = 1_000_000;
 /// The most pairs of parts of bodies that act on each other however far they are: each takes some 400 bytes.
 const MOST_ENDLESS: usize = 10_000_000;
 
-/// The contacts of bodies with supports, and the rules by which bodies meet; notes a contact with what has no surface,
+/// The contacts of bodies with supports, and the rules by which bodies meet with their keys; notes a contact with what has no surface,
 /// and laws out of range.
 pub(super) fn attach(
     partial: &PartialScene,
     assembled: &[Option<AssembledBody>],
     reporter: &mut Reporter<'_>,
-) -> (Vec<Acting>, Vec<PairRule>) {
+) -> (Vec<Acting>, Vec<PairRule>, Vec<Key>) {
     let names = Names::of(partial);
     let (mut count, mut endless) = (0, 0);
-    let (mut contacts, mut rules) = (Vec::new(), Vec::new());
+    let (mut contacts, mut rules, mut keys) = (Vec::new(), Vec::new(), Vec::new());
     let gravity = si(&partial.world.gravity);
     for Placed { key, value, .. } in &partial.contacts {
         let (measure, laws) = (measure(value.measure), laws(value));
@@ -86,11 +86,14 @@ pub(super) fn attach(
                 }
                 pair::check_range(&rule, assembled, key, reporter);
                 pair::check_overlaps(&rule, assembled, key, reporter);
-                if rule.pairs().next().is_none() && names.are_known() {
+                // In a lattice a body has its own images.
+                let is_alone = rule.pairs().next().is_none() && partial.lattice.is_none();
+                if is_alone && names.are_known() {
                     let message = "it is between no two different bodies";
                     reporter.note(&key.key("between"), message, "name two bodies, or groups that have two");
                 }
                 rules.push(rule);
+                keys.push(key.clone());
             }
             Partners::Supports => {
                 let help = "name a body or a group of bodies: supports move as prescribed";
@@ -103,7 +106,7 @@ pub(super) fn attach(
             break;
         }
     }
-    (contacts, rules)
+    (contacts, rules, keys)
 }
 
 /// Notes a law whose factor c = strength · d0^ν of d^−ν cannot be held in a number.

@@ -87,13 +87,13 @@ impl Cells {
     }
 
     /// All of them, the first direction fastest.
-    fn all(&self) -> impl Iterator<Item = Cell> + use<> {
+    pub fn all(&self) -> impl Iterator<Item = Cell> + use<> {
         let [x, y, z] = self.repeat.map(|count| count as i32);
         (0..z).flat_map(move |c| (0..y).flat_map(move |b| (0..x).map(move |a| [a, b, c])))
     }
 
     /// The number of the cell that another sees in a direction; none beyond a free end.
-    fn beside(&self, cell: Cell, offset: Cell) -> Option<usize> {
+    pub fn beside(&self, cell: Cell, offset: Cell) -> Option<usize> {
         let mut number = 0;
         for a in (0..3).rev() {
             let (count, at) = (self.repeat[a] as i32, cell[a].checked_add(offset[a])?);
@@ -107,8 +107,23 @@ impl Cells {
     }
 
     /// The index of a body in a cell of this number: the copies of each body follow one another.
-    fn index(&self, body: usize, cell: usize) -> usize {
+    pub fn index(&self, body: usize, cell: usize) -> usize {
         body * self.count() + cell
+    }
+
+    /// The offsets to cells of which there may be bodies within a distance of one another [m], and that lead somewhere.
+    pub fn offsets(&self, range: f64) -> Vec<Cell> {
+        let reciprocal = self.lattice.reciprocal();
+        // Cells lie in planes 2π/|b_a| apart.
+        let most: [i32; 3] = std::array::from_fn(|a| {
+            let planes = reciprocal.get(a).map_or(0.0, |vector| range * vector.norm() / std::f64::consts::TAU);
+            let far = planes.ceil().min(f64::from(i32::MAX / 2)) as i32 + 1;
+            let within = if self.periodic[a] { far } else { far.min(self.repeat[a] as i32 - 1) };
+            if a < reciprocal.len() { within } else { 0 }
+        });
+        let [x, y, z] = most;
+        let along = |most: i32| -most..=most;
+        along(z).flat_map(|c| along(y).flat_map(move |b| along(x).map(move |a| [a, b, c]))).collect()
     }
 
     /// The bodies of all cells; those of one cell keep their names.

@@ -10,6 +10,7 @@ mod contact;
 mod context;
 mod contractile;
 mod fluid;
+mod images;
 mod kind;
 mod lattice;
 mod mass;
@@ -35,6 +36,7 @@ pub(crate) use salvage::salvage;
 
 use crate::check::{PartialScene, Reporter};
 use crate::file::{self, Method, Recorded, Solver, Time};
+use crate::key::Key;
 use crate::quantity::si;
 use crate::unknown::UnknownForm;
 use body::AssembledBody;
@@ -44,7 +46,7 @@ use gyration::kinematics::Placement;
 use gyration::lattice::Lattice;
 use gyration::load::{Bond, Interaction, Party, Spring};
 use gyration::model::Model;
-use gyration::neighbours::PairRule;
+use gyration::neighbours::{ImagePairs, PairRule};
 use gyration::state::{Start, State};
 use gyration::support::Support;
 use gyration::tensor::{Mat3, Vec3};
@@ -172,7 +174,7 @@ pub(crate) fn assemble(
     }
     let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
     let supports: Vec<_> = partial.supports.iter().map(|placed| support::support(&placed.value)).collect();
-    let (contacts, rules) = contact::attach(partial, &assembled, reporter);
+    let (contacts, rules, rule_keys) = contact::attach(partial, &assembled, reporter);
     let anchored = assembled.iter().flatten().flat_map(|body| &body.springs).copied();
     let cells = partial.lattice.as_ref().map(|written| Cells::of(written, reporter));
     let of_cell = cells.as_ref().and_then(Option::as_ref);
@@ -193,6 +195,10 @@ pub(crate) fn assemble(
         cells.check_alike(&supports, &contacts, fluid, reporter);
         let bodies: Vec<AssembledBody> = assembled.iter().flatten().cloned().collect();
         lattice::check_held(&si(&partial.world.gravity), &contacts, &bodies, reporter);
+        // Of a cell with an error the indices of bodies do not hold.
+        if bodies.len() == assembled.len() {
+            images::images(cells, (&rules, &rule_keys), &bodies, reporter);
+        }
     }
     if !reporter.diagnostics.is_empty() {
         return None;
@@ -208,19 +214,20 @@ pub(crate) fn assemble(
         springs,
         bonds,
         rules,
+        images: None,
         lattice: Lattice::default(),
         origins: Vec::new(),
     };
     let cells = cells.map(|cells| cells.ok_or(())).transpose().ok()?;
     let unit = cells.as_ref().map(|cells| {
         let unit = cells.unit();
-        let (model, state) = parts.clone().repeated(&unit).built()?;
+        let (model, state) = parts.clone().repeated(&unit, &rule_keys, reporter).built()?;
         Some(UnitCell { model, state, periodic: cells.periodic(), relaxes: cells.relaxes })
     });
     let cell = unit.map(|unit| unit.ok_or(())).transpose().ok()?;
     let (model, state) = match &cells {
         None => parts.built()?,
-        Some(cells) => parts.repeated(cells).built()?,
+        Some(cells) => parts.repeated(cells, &rule_keys, reporter).built()?,
     };
     let record = partial.record.as_ref().map(Record::new).unwrap_or_default();
     let copies = cells.as_ref().map_or(1, Cells::count);
@@ -267,17 +274,19 @@ struct Parts {
     springs: Vec<Spring>,
     bonds: Vec<Bond>,
     rules: Vec<PairRule>,
+    images: Option<ImagePairs>,
     lattice: Lattice,
     origins: Vec<Vec3>,
 }
 
 impl Parts {
     /// Those of all of these cells.
-    fn repeated(self, cells: &Cells) -> Self {
+    fn repeated(self, cells: &Cells, keys: &[Key], reporter: &mut Reporter<'_>) -> Self {
         Self {
             contacts: cells.contacts(&self.contacts),
             springs: cells.springs(&self.springs),
             bonds: cells.bonds(&self.bonds),
+            images: images::images(cells, (&self.rules, keys), &self.bodies, reporter),
             rules: cells.rules(&self.rules),
             origins: cells.origins(self.bodies.len()),
             bodies: cells.bodies(&self.bodies),
@@ -297,8 +306,11 @@ impl Parts {
         if let Some(fluid) = self.fluid {
             model = model.in_fluid(fluid?);
         }
-        let model =
-            model.with_contacts(self.contacts).with_springs(self.springs).with_bonds(self.bonds).meeting(self.rules);
+        let model = model.with_contacts(self.contacts).with_springs(self.springs).with_bonds(self.bonds);
+        let model = match self.images {
+            None => model.meeting(self.rules),
+            Some(images) => model.meeting_images(self.rules, images),
+        };
         let model = model.asking(|| Interruption::due().is_some());
         let state = State::start(&model, &starts);
         Some((model, state))

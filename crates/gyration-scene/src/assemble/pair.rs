@@ -151,7 +151,8 @@ pub(super) fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Repo
     true
 }
 
-fn overlapping(both: [&AssembledBody; 2], overlap: &Overlap, key: &Key, reporter: &mut Reporter<'_>) {
+/// Notes two bodies that overlap.
+pub(super) fn overlapping(both: [&AssembledBody; 2], overlap: &Overlap, key: &Key, reporter: &mut Reporter<'_>) {
     let [one, other] = both.map(|assembled| &assembled.name);
     let [x, y, z] = overlap.normal.into();
     let way = format!("along [{x:.6}, {y:.6}, {z:.6}]");

@@ -9,7 +9,8 @@ use gyration::contact::{Action, Term};
 use gyration::contractile::ContractionSource;
 use gyration::dynamics::{Workspace, jacobian, rates};
 use gyration::fluid::Fluid;
-use gyration::load::{Bond, Interaction, Party, Spring};
+use gyration::lattice::Cell;
+use gyration::load::{Interaction, Party, Spring};
 use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
@@ -92,19 +93,17 @@ impl FrozenSystem {
         &self.model.bodies
     }
 
-    /// What joins them.
-    pub fn springs(&self) -> &[Spring] {
-        self.model.springs()
+    /// What leads to other cells: the cell, and the force on the body in this one [N].
+    pub fn across_cells(&mut self, numbers: &[f64]) -> Result<Vec<(Cell, Vec3)>, Inadmissible> {
+        let state = self.state(numbers);
+        let read = self.workspace.read(&self.model, &state);
+        let found = read.map(|(instant, _)| instant.across_cells());
+        found.map_err(|left| self.outside(left))
     }
 
-    /// The bonds between them.
-    pub fn bonds(&self) -> &[Bond] {
-        self.model.bonds()
-    }
-
-    /// The time at which they are frozen [s].
-    pub fn time(&self) -> f64 {
-        self.time
+    /// The numbers as a state of the model.
+    fn state(&self, numbers: &[f64]) -> State {
+        State { time: self.time, bodies: numbers.to_vec(), low: Vec::new(), works: vec![0.0; self.model.works().len()] }
     }
 
     /// Whether a pin, a spring to an anchor or a force of its own may hold one of them.
@@ -162,12 +161,7 @@ impl FrozenSystem {
 
     /// π of an incompressible body.
     pub fn pressure(&mut self, numbers: &[f64], body: usize) -> Option<f64> {
-        let state = State {
-            time: self.time,
-            bodies: numbers.to_vec(),
-            low: Vec::new(),
-            works: vec![0.0; self.model.works().len()],
-        };
+        let state = self.state(numbers);
         observe(&self.model, &mut self.workspace, &state, body).ok()?.pressure
     }
 

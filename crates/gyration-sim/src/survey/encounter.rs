@@ -42,7 +42,7 @@ impl<'a> Encounter<'a> {
     pub fn new(model: &'a Model, start: &State, pair: &Pair) -> Option<Self> {
         let bodies = pair.bodies.map(|body| &model.bodies[body]);
         let end = |k: usize| {
-            let placement = start.motion(model, pair.bodies[k]).placement;
+            let placement = start.motion_in_space(model, pair.bodies[k]).placement;
             let deformation = bodies[k].affine().and_then(|_| Deformation::of(&placement.gradient));
             // P of a rigid body is a rotation.
             let inverse = deformation.map_or_else(|| placement.gradient.transpose(), |deformation| deformation.inverse);

@@ -81,7 +81,7 @@ impl Search<'_, '_> {
     /// What the slab of a pair is no narrower than [m].
     fn least(&self, pair: &Pair) -> f64 {
         let [one, other] = pair.bodies.map(|body| self.at.beside(body));
-        one.from(&other).norm() - WIDEST * pair.form.radii().iter().sum::<f64>()
+        one.apart(&other, pair.cell).norm() - WIDEST * pair.form.radii().iter().sum::<f64>()
     }
 
     /// Looks at the pairs that are not listed of the body and another.
@@ -118,7 +118,7 @@ impl Search<'_, '_> {
     fn slab(&mut self, pair: &Pair) -> Result<f64, Inadmissible> {
         let bodies = pair.bodies.map(|body| self.at.beside(body));
         let [one, other] = &bodies;
-        if let Some(gap) = pair.form.gap_of_balls(one.from(other).norm()) {
+        if let Some(gap) = pair.form.gap_of_balls(one.apart(other, pair.cell).norm()) {
             return Ok(gap);
         }
         let found = with_sides(pair, &bodies, |sides| {

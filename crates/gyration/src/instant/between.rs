@@ -268,7 +268,7 @@ pub(crate) fn outside(at: &MotionAt, pair: &Pair, fault: PairFault) -> Inadmissi
 
 /// Hands the two sides of a pair to `each`.
 pub(crate) fn with_sides<T>(pair: &Pair, bodies: &[MotionAt; 2], each: impl FnOnce([&Side; 2]) -> T) -> T {
-    let apart = bodies[1].from(&bodies[0]);
+    let apart = bodies[0].apart(&bodies[1], pair.cell);
     let [one, other] = [0, 1].map(|end| {
         let at = &bodies[end];
         Side {

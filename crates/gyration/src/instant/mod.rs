@@ -23,9 +23,11 @@ use crate::acting::{Load, PairAt, PairEnd};
 use crate::body::Slots;
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
+use crate::lattice::{Cell, HERE};
 use crate::load::{BondEnd, BondLoads, BondSlopes, SpringEnd, SpringLoads};
 use crate::model::Model;
 use crate::pair::PairScratch;
+use crate::tensor::Vec3;
 use between::{Between, Looking, Wanted};
 use motions::Motions;
 use slabs::Remembered;
@@ -187,6 +189,19 @@ impl Instant<'_> {
             .chain(bonds)
             .filter(move |other| *other != body)
             .chain(self.at(body).pairs().filter(|pair| pair.acts()).map(|pair| pair.other()))
+    }
+
+    /// What springs, bonds and pairs do across cells: the cell of the second party as seen from that of the first, and
+    /// the force on the first [N]. To be asked now and then: it allocates.
+    pub fn across_cells(&self) -> Vec<(Cell, Vec3)> {
+        let springs = self.model.springs().iter().enumerate();
+        let springs = springs.map(|(number, spring)| (spring.cell, self.between.spring(number).force));
+        let bonds = self.model.bonds().iter().enumerate();
+        let bonds = bonds.map(|(number, bond)| (bond.cell, self.between.bond(number).on[0].force));
+        let bodies = 0..self.model.bodies.len();
+        let pairs = bodies.flat_map(|body| self.at(body).pairs().filter(|pair| pair.end.counts()));
+        let pairs = pairs.map(|pair| (pair.end.interaction.cell, pair.on_body().force));
+        springs.chain(bonds).chain(pairs).filter(|(cell, _)| *cell != HERE).collect()
     }
 
     /// The numbers that were read.

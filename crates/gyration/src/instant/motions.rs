@@ -12,6 +12,7 @@ use crate::contractile::Decomposition;
 use crate::extended::{Extended, ExtendedVec3, Numbers};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::kinematics::{Placement, Quaternion, Velocity};
+use crate::lattice::{Cell, HERE};
 use crate::model::Model;
 use crate::neighbours::NeighbourList;
 use crate::state::{BodyMotion, Turn, contraction_at};
@@ -138,7 +139,15 @@ impl Motions {
             instant.read(body, index, model.slots(index), (time, state))?;
         }
         let Self { bodies, near, .. } = self;
-        near.update(model.rules(), &model.bodies, |index| bodies[index].motion.placement.position);
+        let place = |index: usize| bodies[index].motion.placement.position;
+        if let Some(images) = model.images() {
+            for body in 0..bodies.len() {
+                if let Some(distance) = images.strayed(body, &place(body)) {
+                    return Err(Inadmissible { body, quantity: Quantity::Stray, value: distance });
+                }
+            }
+        }
+        near.update(model.rules(), model.images(), &model.bodies, place);
         self.find_reached(model);
         Ok(())
     }
@@ -152,7 +161,7 @@ impl Motions {
             let [one, other] = pair.bodies.map(|body| self.at(model, body));
             let is_rigid = |at: &MotionAt| matches!(at.attitude, Attitude::Rigid(_));
             let cutoff = pair.form.cutoff().filter(|_| is_rigid(&one) && is_rigid(&other));
-            cutoff.is_none_or(|cutoff| one.from(&other).norm() < cutoff).then(|| {
+            cutoff.is_none_or(|cutoff| one.apart(&other, pair.cell).norm() < cutoff).then(|| {
                 count += 1;
                 count - 1
             })
@@ -263,6 +272,15 @@ impl<'a> MotionAt<'a> {
         }
         let [own, there] = [self, other].map(|at| at.model.slots(at.index).position().start);
         Vec3::from_fn(|i, _| (self.numbers.at(own + i) - self.numbers.at(there + i)).value())
+    }
+
+    /// The place of the image of another body in a cell, from that of this one [m].
+    #[inline]
+    pub(crate) fn apart(&self, other: &Self, cell: Cell) -> Vec3 {
+        match cell {
+            HERE => other.from(self),
+            cell => other.from(self) + self.model.lattice.place(cell),
+        }
     }
 
     /// ṗ₀, to all the digits of the state; of a pinned body to those of one number.

@@ -15,8 +15,11 @@ impl Model {
     /// bodies that deform.
     pub fn endless_chain(&self) -> impl Iterator<Item = [usize; 2]> {
         let deforms = |body: usize| self.bodies[body].affine().is_some();
+        // Those of a lattice stay beside one another.
+        let in_lattice = self.images.is_some();
         let rules = self.rules.all().iter().flat_map(move |rule| {
-            let is_endless = move |pair: &[usize; 2]| rule.reach.is_none() || pair.iter().any(|body| deforms(*body));
+            let is_endless =
+                move |pair: &[usize; 2]| in_lattice || rule.reach.is_none() || pair.iter().any(|body| deforms(*body));
             // Beside one that deforms each other one of its set needs a single partner.
             let of_set = move |own: usize| {
                 let deforming = rule.bodies[own].iter().copied().filter(move |body| deforms(*body));
@@ -32,6 +35,9 @@ impl Model {
 
     /// Whether there are bodies that act on one another within a distance only.
     pub fn has_cutoffs(&self) -> bool {
+        if self.images.is_some() {
+            return false;
+        }
         let is_rigid = |body: &&usize| self.bodies[**body].affine().is_none();
         self.rules.all().iter().filter(|rule| rule.reach.is_some()).any(|rule| {
             let [one, other] = [0, 1].map(|set| rule.bodies[set].iter().filter(is_rigid).take(2));

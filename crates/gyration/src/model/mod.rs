@@ -12,7 +12,7 @@ use crate::fluid::Fluid;
 use crate::lattice::Lattice;
 use crate::ledger::{Energy, Work};
 use crate::load::{Applied, Bond, BondEnd, Interactions, Spring, SpringEnd};
-use crate::neighbours::{Pair, PairRule, PairRules};
+use crate::neighbours::{ImagePairs, Pair, PairRule, PairRules};
 use crate::support::Support;
 use crate::tensor::Vec3;
 use std::ops::Range;
@@ -39,6 +39,8 @@ pub struct Model {
     springs: Interactions<Spring>,
     bonds: Interactions<Bond>,
     rules: PairRules,
+    /// The pairs across cells; none where no bodies of a lattice meet.
+    images: Option<ImagePairs>,
     /// How many pairs these join, and how many of them however far they are.
     pairs: [usize; 2],
     /// The bodies without inertia, ascending.
@@ -84,6 +86,7 @@ impl Model {
             springs,
             bonds,
             rules,
+            images: None,
             pairs: [0, 0],
             inertialess,
             slots,
@@ -226,6 +229,20 @@ impl Model {
         self.with_ledger()
     }
 
+    /// The model whose bodies meet by these rules across the cells of its lattice, those that are listed and no others.
+    ///
+    /// # Panics
+    /// If a rule is not of bodies of the model.
+    #[must_use]
+    pub fn meeting_images(self, rules: Vec<PairRule>, images: ImagePairs) -> Self {
+        Self { images: Some(images), ..self }.meeting(rules)
+    }
+
+    /// The pairs across cells; none where no bodies of a lattice meet.
+    pub fn images(&self) -> Option<&ImagePairs> {
+        self.images.as_ref()
+    }
+
     /// The model under a controller: loads may be applied to its bodies, and the ledger has their work.
     #[must_use]
     pub fn under_control(mut self) -> Self {
@@ -265,7 +282,11 @@ impl Model {
             contacts: self.contacts.among(members, Contact::of_parties),
             springs: self.springs.among(members, Spring::of_parties),
             bonds: self.bonds.among(members, Bond::of_parties),
-            rules: self.rules.among(members),
+            rules: match self.images {
+                None => self.rules.among(members),
+                Some(_) => self.rules.of_images(members),
+            },
+            images: self.images.as_ref().map(|images| images.among(members)),
             pairs: [0, 0],
             works: Vec::new(),
             energies: Vec::new(),
@@ -342,7 +363,7 @@ impl Model {
 
     /// Whether a body meets others.
     pub fn meets_bodies(&self, body: usize) -> bool {
-        !self.rules.of(body).is_empty()
+        self.images.as_ref().map_or_else(|| !self.rules.of(body).is_empty(), |images| images.meets(body))
     }
 
     /// Whether other bodies act on a body; springs without stiffness and damping do not.

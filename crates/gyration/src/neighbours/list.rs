@@ -4,10 +4,12 @@
 //! body has moved by half the skin. Few pairs are all listed, once. So are those without a cutoff: of rules without a
 //! reach, and of bodies that deform.
 
+use super::images::{ImagePair, ImagePairs};
 use super::rules::{PairRule, PairRules};
 use super::spheres::{BodyPair, Sphere, near};
 use super::{Pair, form};
 use crate::body::{Body, Solid};
+use crate::lattice::HERE;
 use crate::load::Interactions;
 use crate::pair::PairForm;
 use crate::tensor::Vec3;
@@ -110,12 +112,26 @@ impl NeighbourList {
         self.is_whole
     }
 
-    /// Makes the list anew where it does not hold for these places [m] any longer.
-    pub fn update(&mut self, rules: &PairRules, bodies: &[Arc<Body>], place: impl Fn(usize) -> Vec3) {
+    /// Makes the list anew where it does not hold for these places [m] any longer; of a lattice it is that of its
+    /// images.
+    pub fn update(
+        &mut self,
+        rules: &PairRules,
+        images: Option<&ImagePairs>,
+        bodies: &[Arc<Body>],
+        place: impl Fn(usize) -> Vec3,
+    ) {
         if rules.is_empty() && self.rules.is_empty() {
             return;
         }
         let is_of_these = self.rules.are(rules);
+        if let Some(images) = images {
+            if !is_of_these {
+                *self = Self { rules: rules.clone(), is_whole: true, ..Self::default() };
+                self.list(bodies, images.all().iter().copied(), &mut Forms::default());
+            }
+            return;
+        }
         if is_of_these && self.is_whole {
             return;
         }
@@ -144,23 +160,31 @@ impl NeighbourList {
             true => vec![Sphere::EVERYWHERE; bodies.len()],
             false => bodies.iter().enumerate().map(|(index, body)| sphere(body, place(index))).collect(),
         };
+        let reach = |rule: &PairRule| Some(rule.reach.map_or(f64::INFINITY, |reach| reach.longest() + *skin));
+        let near = near(rules, &spheres, reach).into_iter().map(|pair| ImagePair { pair, cell: HERE });
+        let near: Vec<ImagePair> = near.collect();
+        self.list(bodies, near, &mut before);
+        self.places = if self.is_whole { Vec::new() } else { (0..bodies.len()).map(place).collect() };
+        self.tree = OnceLock::new();
+    }
+
+    /// Lists the pairs of the parts of bodies; forms that were known before are taken over.
+    fn list(&mut self, bodies: &[Arc<Body>], near: impl IntoIterator<Item = ImagePair>, before: &mut Forms) {
+        let Self { rules, forms, .. } = self;
         let mut pairs = Vec::new();
-        for BodyPair { rule, bodies: both } in
-            near(rules, &spheres, |rule| Some(rule.reach.map_or(f64::INFINITY, |reach| reach.longest() + *skin)))
-        {
+        for ImagePair { pair: BodyPair { rule, bodies: both }, cell } in near {
             let solids = both.map(|body| &bodies[body].solid);
-            let (forms, before) = (&mut *forms, &mut before);
+            let (forms, before) = (&mut *forms, &mut *before);
             let rules = &*rules;
             pairs.extend(Solid::parts_of(solids.map(|solid| &**solid)).map(|parts| Pair {
                 rule,
                 bodies: both,
+                cell,
                 parts,
                 form: forms.of(before, rule, &rules.all()[rule], solids, parts),
             }));
         }
         self.pairs = Interactions::new(bodies.len(), pairs);
-        self.places = if self.is_whole { Vec::new() } else { (0..bodies.len()).map(place).collect() };
-        self.tree = OnceLock::new();
     }
 
     /// The pairs of the parts of two bodies that a rule joins, unless they are listed.

@@ -10,19 +10,23 @@
 //! | `boxes`   | boxes in a tree                                               |
 //! | `spheres` | which spheres about bodies come near one another              |
 //! | `list`    | the pairs that may act, kept while bodies move little         |
+//! | `images`  | the pairs across the cells of a lattice, listed once          |
 
 mod boxes;
+mod images;
 mod list;
 mod rules;
 mod spheres;
 
 pub use boxes::{Bounds, BoxTree};
+pub use images::{ImagePair, ImagePairs};
 pub use list::NeighbourList;
 use rules::masses;
 pub use rules::{PairRule, PairRules};
 pub use spheres::{BodyPair, Sphere, each_near, each_overlap, near};
 
 use crate::body::Solid;
+use crate::lattice::{Cell, HERE};
 use crate::load::{Interaction, Party};
 use crate::pair::PairForm;
 use std::sync::Arc;
@@ -32,8 +36,10 @@ use std::sync::Arc;
 pub struct Pair {
     /// The number of the rule that joins them.
     pub rule: usize,
-    /// The indices of the two bodies, A and B, which differ.
+    /// The indices of the two bodies, A and B, which differ in one cell.
     pub bodies: [usize; 2],
+    /// The cell of B as seen from that of A.
+    pub cell: Cell,
     /// Which part of each.
     pub parts: [usize; 2],
     /// What they do to each other.
@@ -43,6 +49,10 @@ pub struct Pair {
 impl Interaction for Pair {
     fn parties(&self) -> [Party; 2] {
         self.bodies.map(Party::Body)
+    }
+
+    fn cell(&self) -> Cell {
+        self.cell
     }
 }
 
@@ -56,13 +66,13 @@ impl Pair {
     ) -> impl Iterator<Item = Self> + use<'a> {
         Solid::parts_of(solids.map(|solid| &**solid)).map(move |parts| {
             let form = Arc::new(form(&rules.all()[rule], solids, parts));
-            Self { rule, bodies, parts, form }
+            Self { rule, bodies, cell: HERE, parts, form }
         })
     }
 
     /// The order in which the pairs of a model stand.
-    pub fn key(&self) -> (BodyPair, [usize; 2]) {
-        (BodyPair { rule: self.rule, bodies: self.bodies }, self.parts)
+    pub fn key(&self) -> (BodyPair, Cell, [usize; 2]) {
+        (BodyPair { rule: self.rule, bodies: self.bodies }, self.cell, self.parts)
     }
 }
 

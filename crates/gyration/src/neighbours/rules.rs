@@ -173,6 +173,15 @@ impl PairRules {
         if body + 1 < self.starts.len() { &self.of[self.starts[body]..self.starts[body + 1]] } else { &[] }
     }
 
+    /// All of them, each with those of its bodies that are among some, which ascend, by their places among these: in a
+    /// lattice a body alone has its images to meet.
+    #[must_use]
+    pub fn of_images(&self, members: &[usize]) -> Self {
+        let set = |bodies: &Arc<[usize]>| bodies.iter().filter_map(|body| members.binary_search(body).ok()).collect();
+        let of = |rule: &PairRule| PairRule { bodies: rule.bodies.each_ref().map(set), ..rule.clone() };
+        Self::new(members.len(), self.all.iter().map(of).collect())
+    }
+
     /// Those between some bodies, which ascend, with the places of their bodies among these.
     #[must_use]
     pub fn among(&self, members: &[usize]) -> Self {

@@ -20,12 +20,11 @@ use super::shape::ModeShape;
 use super::system::SystemCoordinates;
 use super::{NoRest, Rest, RestContraction, equilibrium, system_rest};
 use bloch::{BlochSystem, C64};
-use gyration::lattice::{HERE, Lattice};
-use gyration::load::{Bond, BondPlace, Interaction, Spring};
+use gyration::Inadmissible;
+use gyration::lattice::Lattice;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::{Mat3, Vec3};
-use gyration_expression::Scratch;
 use gyration_threads::Interruption;
 use nalgebra::DVector;
 use serde::Serialize;
@@ -143,7 +142,7 @@ impl LatticeWaves {
         let left = left.fold(0.0, f64::max);
         let unrest = (left > AT_REST * system.stiffest).then_some(left);
         let bodies = sought.unwrap_or_else(|| equilibrium::rest_at(&mut frozen, &numbers));
-        let (force, stress) = carried(&frozen, &lattice, &numbers);
+        let (force, stress) = carried(&mut frozen, &lattice, &numbers).map_err(NoRest::from)?;
         let rest = CellRest { cell: lattice.vectors().to_vec(), force, stress, bodies, unrest };
         let coordinates = SystemCoordinates::at(&frozen, &numbers);
         Ok(Self { frozen, coordinates, system, lattice, rest })
@@ -196,32 +195,13 @@ impl LatticeWaves {
 }
 
 /// The forces that the cell vectors carry, and the stress.
-fn carried(frozen: &FrozenSystem, lattice: &Lattice, numbers: &[f64]) -> (Vec<Vec3>, Mat3) {
-    let motions: Vec<_> = (0..frozen.count()).map(|body| frozen.motion(numbers, body)).collect();
+fn carried(frozen: &mut FrozenSystem, lattice: &Lattice, numbers: &[f64]) -> Result<(Vec<Vec3>, Mat3), Inadmissible> {
     let mut forces = vec![Vec3::zeros(); lattice.vectors().len()];
-    let leads_away = |spring: &&Spring| spring.cell() != HERE;
-    for spring in frozen.springs().iter().filter(leads_away) {
-        // ∂E/∂(place of the second end) is what it does to the first.
-        let Ok(loads) = spring.loads(lattice, |body| &motions[body]) else { continue };
-        for (force, n) in forces.iter_mut().zip(spring.cell()) {
-            *force += f64::from(n) * loads.force;
-        }
-    }
-    let leads_away = |bond: &&Bond| bond.cell() != HERE;
-    for bond in frozen.bonds().iter().filter(leads_away) {
-        let place = BondPlace {
-            motions: bond.bodies.map(|body| &motions[body]),
-            inverses: bond.bodies.map(|body| frozen.inverse(numbers, body)),
-            turn: bond.bodies.map(|body| !frozen.bodies()[body].is_point()),
-            shift: lattice.place(bond.cell()),
-            time: frozen.time(),
-        };
-        let Ok(loads) = bond.loads(&place, &mut Scratch::default()) else { continue };
-        for (force, n) in forces.iter_mut().zip(bond.cell()) {
-            *force += f64::from(n) * loads.on[0].force;
-        }
+    // ∂E/∂(place of the second party) is what it does to the first.
+    for (cell, on_first) in frozen.across_cells(numbers)? {
+        forces.iter_mut().zip(cell).for_each(|(force, n)| *force += f64::from(n) * on_first);
     }
     let products = forces.iter().zip(lattice.vectors()).map(|(force, vector)| force * vector.transpose());
     let stress = products.sum::<Mat3>() / lattice.volume();
-    (forces, stress)
+    Ok((forces, stress))
 }

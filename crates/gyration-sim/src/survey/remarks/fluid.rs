@@ -56,7 +56,7 @@ pub(crate) struct LeftOut {
 impl LeftOut {
     /// What is left out in a state.
     pub(crate) fn at(model: &Model, state: &State) -> Self {
-        let position = |body: usize| state.motion(model, body).placement.position;
+        let position = |body: usize| state.motion_in_space(model, body).placement.position;
         let positions: Vec<Vec3> = (0..model.bodies.len()).map(position).collect();
         let mut left_out = Self::default();
         left_out.note(model, state.time, &positions);

@@ -34,7 +34,7 @@ fn warning(model: &Model, start: &State, rule: usize) -> Option<String> {
 
 /// Place [m] and velocity [m/s] of the first of two centres from the second.
 fn apart(model: &Model, start: &State, bodies: [usize; 2]) -> (Vec3, Vec3) {
-    let [one, other] = bodies.map(|body| start.motion(model, body));
+    let [one, other] = bodies.map(|body| start.motion_in_space(model, body));
     (one.placement.position - other.placement.position, one.velocity.velocity - other.velocity.velocity)
 }
 

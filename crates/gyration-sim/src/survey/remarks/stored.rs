@@ -60,7 +60,7 @@ struct Near {
 fn beside_one_another(model: &Model, start: &State) -> Vec<BodyPair> {
     let sphere = |(index, body): (usize, &Arc<Body>)| {
         let Some(radius) = body.solid.radius() else { return Sphere::NOWHERE };
-        let placement = start.motion(model, index).placement;
+        let placement = start.motion_in_space(model, index).placement;
         Sphere::new(placement.position, 2.0 * placement.gradient.norm() * radius)
     };
     let spheres: Vec<Sphere> = model.bodies.iter().enumerate().map(sphere).collect();
@@ -81,7 +81,7 @@ impl Near {
     /// A pair at the start, unless its balls are farther apart than they are large.
     fn of_pair(model: &Model, start: &State, pair: &Pair) -> Option<Self> {
         let bodies: [&Body; 2] = pair.bodies.map(|body| &*model.bodies[body]);
-        let motions: [BodyMotion; 2] = pair.bodies.map(|body| start.motion(model, body));
+        let motions: [BodyMotion; 2] = pair.bodies.map(|body| start.motion_in_space(model, body));
         let between = motions[0].placement.position - motions[1].placement.position;
         let reach = |end: usize| {
             let surface = bodies[end].solid.part(pair.parts[end]);
@@ -116,7 +116,7 @@ impl Near {
 
 /// Kinetic energy of a body, its weight over its size, and the energy of its material at a strain of a half [J].
 fn other_energy(model: &Model, start: &State, body: usize) -> f64 {
-    let BodyMotion { velocity, .. } = start.motion(model, body);
+    let BodyMotion { velocity, .. } = start.motion_in_space(model, body);
     let body = &model.bodies[body];
     let mass = &body.solid.mass;
     let rate = &velocity.gradient_rate;

@@ -103,7 +103,7 @@ impl Overlapping {
 
 /// A sphere around a body about its centre of mass.
 fn sphere(model: &Model, start: &State, body: usize) -> Sphere {
-    let placement = start.motion(model, body).placement;
+    let placement = start.motion_in_space(model, body).placement;
     let radius = model.bodies[body].solid.surface.as_ref();
     // |P X| is the speed of X under the gradient rate P.
     let radius = radius.map_or(0.0, |surface| surface.fastest_point(&Vec3::zeros(), &placement.gradient));
@@ -112,7 +112,7 @@ fn sphere(model: &Model, start: &State, body: usize) -> Sphere {
 
 /// How far two bodies reach into each other, if any of their parts do [m].
 fn depth(model: &Model, start: &State, bodies: [usize; 2]) -> Option<f64> {
-    let motions: [BodyMotion; 2] = bodies.map(|body| start.motion(model, body));
+    let motions: [BodyMotion; 2] = bodies.map(|body| start.motion_in_space(model, body));
     let solids = bodies.map(|body| &model.bodies[body].solid);
     let overlaps = Solid::parts_of(solids.map(|solid| &**solid)).filter_map(|[one, other]| {
         let surfaces = [solids[0].part(one), solids[1].part(other)];

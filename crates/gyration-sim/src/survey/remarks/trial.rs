@@ -32,7 +32,7 @@ impl<'a> TrialPair<'a> {
     pub fn of(model: &'a Model, start: &State, pair: &Pair) -> Self {
         let bodies = pair.bodies.map(|body| &*model.bodies[body]);
         let surfaces = [0, 1].map(|end| bodies[end].solid.part(pair.parts[end]));
-        let motions = pair.bodies.map(|body| start.motion(model, body));
+        let motions = pair.bodies.map(|body| start.motion_in_space(model, body));
         let form = PairForm::new(Arc::clone(&pair.form.laws), None, surfaces);
         Self { form, parts: pair.parts, bodies, motions, gravity: model.gravity.norm() }
     }

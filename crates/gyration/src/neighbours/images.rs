@@ -1,0 +1,76 @@
+//! Pairs of bodies across the cells of a lattice: which body meets which image of which.
+//!
+//! They are listed once, by where the bodies of a cell start, as far as they reach when each has come away from its
+//! start by no more than a bound: a body that strays farther leaves the model. So nothing is looked for while a lattice
+//! moves, whatever the number of cells.
+
+use super::BodyPair;
+use crate::lattice::Cell;
+use crate::tensor::Vec3;
+use std::sync::Arc;
+
+/// A body, and the image of another, or of itself, in a cell as seen from its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ImagePair {
+    /// The rule and the bodies.
+    pub pair: BodyPair,
+    /// The cell of the second.
+    pub cell: Cell,
+}
+
+/// The pairs of a lattice.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImagePairs {
+    /// Ascending.
+    all: Arc<[ImagePair]>,
+    /// Where each body starts in its cell [m].
+    starts: Arc<[Vec3]>,
+    /// Whether each meets anybody.
+    meets: Arc<[bool]>,
+    /// How far a body may come away from there [m].
+    stray: f64,
+}
+
+impl ImagePairs {
+    /// Of bodies that start at these places in their cells [m].
+    pub fn new(mut all: Vec<ImagePair>, starts: Vec<Vec3>, stray: f64) -> Self {
+        all.sort_unstable();
+        all.dedup();
+        let mut meets = vec![false; starts.len()];
+        all.iter().flat_map(|image| image.pair.bodies).for_each(|body| meets[body] = true);
+        Self { all: all.into(), starts: starts.into(), meets: meets.into(), stray }
+    }
+
+    /// All of them, ascending.
+    pub fn all(&self) -> &[ImagePair] {
+        &self.all
+    }
+
+    /// Whether a body meets another, or an image.
+    pub fn meets(&self, body: usize) -> bool {
+        self.meets[body]
+    }
+
+    /// How far a body may come away from its start [m].
+    pub fn stray(&self) -> f64 {
+        self.stray
+    }
+
+    /// How far a body at a place in its cell has come from its start, if that is too far [m].
+    pub fn strayed(&self, body: usize, place: &Vec3) -> Option<f64> {
+        let distance = (place - self.starts[body]).norm();
+        (distance > self.stray).then_some(distance)
+    }
+
+    /// Those between some bodies, which ascend, by their places among these.
+    #[must_use]
+    pub fn among(&self, members: &[usize]) -> Self {
+        let place = |body: usize| members.binary_search(&body).ok();
+        let within = |image: &ImagePair| {
+            let [one, other] = image.pair.bodies.map(place);
+            Some(ImagePair { pair: BodyPair { bodies: [one?, other?], ..image.pair }, ..*image })
+        };
+        let starts = members.iter().map(|body| self.starts[*body]).collect();
+        Self::new(self.all.iter().filter_map(within).collect(), starts, self.stray)
+    }
+}
