@@ -8,7 +8,7 @@ pub enum ParseError {
     /// The text says nothing sound at `column`, counted in characters from 1.
     #[error("column {column}: {reason}")]
     Text {
-        /// Where, counted in characters from 1.
+        /// Place of the fault, counted in characters from 1.
         column: usize,
         /// The fault, and what would be right.
         reason: Reason,
@@ -18,7 +18,7 @@ pub enum ParseError {
     ConstantTaken {
         /// Name of the constant.
         name: String,
-        /// What has the name already: a variable, a function, pi.
+        /// Owner of the name: a variable, a function, pi.
         taken_by: &'static str,
     },
     /// A constant has a name that no expression can contain.
@@ -75,7 +75,7 @@ pub enum Reason {
     Name {
         /// The name.
         name: String,
-        /// What is known, in words.
+        /// Names that are known, in words.
         known: String,
     },
     /// A function without its parentheses.
@@ -89,9 +89,9 @@ pub enum Reason {
     Arguments {
         /// The function.
         name: &'static str,
-        /// How many it takes, in words.
+        /// Number of arguments that it takes, in words.
         takes: &'static str,
-        /// How many it is given.
+        /// Number of arguments that it is given.
         given: usize,
     },
     /// A parenthesis that nothing closes.
@@ -116,7 +116,7 @@ pub enum Reason {
     },
 }
 
-/// What an operation lacks at a place.
+/// Lack of an operation at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Want {
     /// A finite value.
@@ -147,6 +147,6 @@ pub struct Undefined {
     pub column: usize,
     /// Its argument: of an operator the operand that matters (divisor, base).
     pub argument: f64,
-    /// What it lacks there.
+    /// Lack of it there.
     pub want: Want,
 }

@@ -126,7 +126,7 @@ impl Expression {
         use crate::operation::Binary;
         let mut degrees: Vec<Option<usize>> = Vec::with_capacity(self.tape.steps.len());
         for Step { operation, .. } in &self.tape.steps {
-            // What does not contain `by` is a number, whatever is computed of it.
+            // A step without `by` is a number, whatever is computed of it.
             let number = |place: usize| degrees[place] == Some(0);
             let degree = match *operation {
                 Operation::Variable(index) => Some(usize::from(by.contains(&index))),

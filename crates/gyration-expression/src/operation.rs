@@ -52,7 +52,7 @@ pub(crate) struct Partials {
     pub(crate) bb: f64,
 }
 
-/// What an operation lacks, and at which argument.
+/// Lack of an operation, and the argument at which it is found.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lack {
     pub(crate) want: Want,

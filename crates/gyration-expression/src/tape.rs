@@ -13,7 +13,7 @@ pub(crate) struct Step {
 }
 
 impl Step {
-    /// What the step lacks, with its place in the text.
+    /// Lack of the step, with its place in the text.
     pub(crate) fn undefined(&self, lack: Lack) -> Undefined {
         Undefined { operation: self.operation.name(), column: self.column, argument: lack.argument, want: lack.want }
     }

@@ -70,7 +70,7 @@ pub enum Quantity {
     /// A formula of the body has no finite value, or not the derivative that is needed, at the numbers that its
     /// variables have; the value is the argument of the operation.
     Formula {
-        /// What the formula is of.
+        /// Force that the formula stands for.
         of: FormulaOf,
         /// The operation, its column, what it lacks.
         undefined: Undefined,

@@ -94,16 +94,16 @@ impl OwnForcesWritten {
     }
 }
 
-/// Whoever reads the expressions of a body.
+/// Reader of the expressions of a body.
 struct Reader<'a, 'b> {
     constants: Vec<(String, f64)>,
     reporter: &'a mut Reporter<'b>,
-    /// Whether one of them is none.
+    /// True once one of them is none.
     fails: bool,
 }
 
 impl Reader<'_, '_> {
-    /// What an expression gives, if it parses.
+    /// Result of an expression, if it parses.
     fn accepted<T>(&mut self, read: Result<T, ParseError>, key: &Key, text: &str) -> Option<T> {
         let made = accepted(read, (key, text), self.reporter);
         self.fails |= made.is_none();
@@ -204,7 +204,7 @@ pub(super) fn constants(
     Some(all)
 }
 
-/// What is defined at the start.
+/// Result of what is defined at the start.
 fn defined<T>(found: Result<T, impl Display>, key: &Key, reporter: &mut Reporter<'_>) -> Option<T> {
     found
         .map_err(|fault| {

@@ -55,7 +55,7 @@ pub struct LinearFriction {
     /// H, 12×12 in SI units; symmetric, positive semi-definite. An entry in quotes is an expression of x, y, z, P_xx …
     /// P_zz and t.
     pub matrix: [[Entry; 12]; 12],
-    /// What H is multiplied by: an expression of x, y, z, P_xx … P_zz and t, never negative.
+    /// Factor of H: a number or an expression of x, y, z, P_xx … P_zz and t, never negative.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<Entry>,
     /// The axes in which H is constant.

@@ -286,7 +286,7 @@ impl Island {
         Ok(report)
     }
 
-    /// Whether the frictions that change with the place are such at the end of the last step [s].
+    /// Tests the frictions that change with the place at the end of the last step [s].
     fn check_frictions(&mut self, time: f64) -> Result<(), Stop> {
         let (model, workspace) = self.system.observed();
         for (index, (body, end)) in model.bodies.iter().zip(&self.step_ends).enumerate() {

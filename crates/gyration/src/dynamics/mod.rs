@@ -96,7 +96,7 @@ impl Workspace {
         Ok((instant, scratch))
     }
 
-    /// Whether the frictions of a body that change with its place are such there.
+    /// Tests the frictions of a body that change with its place.
     ///
     /// # Errors
     /// [`FrictionFault`] of the first one whose matrix has no value, is not symmetric or not positive semi-definite.

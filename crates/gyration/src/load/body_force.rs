@@ -36,7 +36,7 @@ pub struct FieldOfForce([Expression; 3]);
 pub struct BodyForce {
     field: FieldOfForce,
     rule: VolumeRule,
-    /// Whether the weights are masses, which deformation does not change.
+    /// True if the weights are masses, which deformation does not change.
     of_points: bool,
     /// The relative error of the rule at the start; none where it is exact.
     error: Option<f64>,
@@ -127,7 +127,7 @@ impl BodyForce {
         self.error
     }
 
-    /// How many points its rule has.
+    /// Number of points of its rule.
     pub fn points(&self) -> usize {
         self.rule.nodes.len()
     }

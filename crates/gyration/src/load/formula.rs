@@ -41,12 +41,12 @@ impl Formula {
         Ok(Self { expression, uses_time })
     }
 
-    /// Whether t stands in it.
+    /// True if t stands in it.
     pub fn uses_time(&self) -> bool {
         self.uses_time
     }
 
-    /// Whether the place stands in it.
+    /// True if the place stands in it.
     pub fn uses_place(&self) -> bool {
         self.expression.free().len() > 0
     }

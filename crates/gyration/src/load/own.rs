@@ -16,7 +16,7 @@ pub struct OwnForces {
 }
 
 impl OwnForces {
-    /// Whether one of them may hold the body at a place.
+    /// True if one of them may hold the body at a place.
     pub fn hold(&self) -> bool {
         self.body_force.is_some() || self.potential.as_ref().is_some_and(|potential| potential.acts())
     }

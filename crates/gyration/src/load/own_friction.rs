@@ -100,7 +100,7 @@ impl OwnFriction {
         Ok(held.loads(&place.gradient, inverse, velocity))
     }
 
-    /// Whether it is a friction at a place.
+    /// Tests that it is a friction at a place.
     ///
     /// # Errors
     /// [`FrictionFault`] where it has no value, is not symmetric, or has a negative pivot.

@@ -23,12 +23,12 @@ impl Potential {
         Formula::parse(text, constants).map(Self)
     }
 
-    /// Whether it is an energy: V does not mention t.
+    /// True if it is an energy: V does not mention t.
     pub fn is_energy(&self) -> bool {
         !self.0.uses_time()
     }
 
-    /// Whether it acts: V mentions the place.
+    /// True if it acts: V mentions the place.
     pub fn acts(&self) -> bool {
         self.0.uses_place()
     }

@@ -6,9 +6,9 @@
 //! Gauss' rules along radius and axis and equal weights around; a polyhedron is the signed sum of tetrahedra from its
 //! middle, each with collapsed coordinates. Of a set of points the rule is the points with their masses, [kg].
 //!
-//! Where these are many, [`VolumeRule::condensed`] has the same integrals of polynomials on a lattice of the bounding
-//! box: w_q = W_q Σ_j m_j φ_j(X_q), with Gauss' weights W, Legendre's orthonormal φ_j and the moments m_j = ∫ φ_j dV.
-//! Some weights are then negative, and some points lie outside the shape: for polynomials alone.
+//! Many points are condensed: [`VolumeRule::condensed`] has the same integrals of polynomials on a lattice of the
+//! bounding box: w_q = W_q Σ_j m_j φ_j(X_q), with Gauss' weights W, Legendre's orthonormal φ_j and the moments m_j = ∫
+//! φ_j dV. Some weights are then negative, and some points lie outside the shape: for polynomials alone.
 
 use super::{Bounds, Capsule, Cone, Cylinder, Polyhedron, Shape, Torus, UnionPart};
 use crate::surface::gauss_legendre;
