@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
 mod case_balanced_pairs;
+mod case_bonds;
 mod case_contracting_box;
 mod case_contraction_modes;
 mod case_deforming_inclusion;

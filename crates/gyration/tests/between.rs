@@ -29,7 +29,7 @@ pub fn bodies() -> Vec<Body> {
     bodies_of(&shape)
 }
 
-fn bodies_of(shape: &Shape) -> Vec<Body> {
+pub fn bodies_of(shape: &Shape) -> Vec<Body> {
     let variant = |incompressible, pinned| Variant { incompressible, pinned, frame: Frame::Space };
     let mut bodies = Vec::new();
     for pinned in [false, true] {
@@ -90,7 +90,7 @@ pub fn state(model: &Model) -> State {
     state_at(model, |_| Vec3::new(0.2, 0.1, 1.6))
 }
 
-fn state_at(model: &Model, place: impl Fn(usize) -> Vec3) -> State {
+pub fn state_at(model: &Model, place: impl Fn(usize) -> Vec3) -> State {
     let start = |(k, body): (usize, &Arc<Body>)| start(body, 0.1 * k as f64, place(k));
     let starts: Vec<Start> = model.bodies.iter().enumerate().map(start).collect();
     State::start(model, &starts)

@@ -1,8 +1,10 @@
-//! Bonds between bodies of any two kinds, in a cell and across cells: blocks of the Jacobian against differences, action
-//! and reaction, the balance of power.
+//! Bonds between bodies of any two kinds, in a cell and across cells: blocks of the Jacobian against differences,
+//! action and reaction, the balance of power.
 
 use crate::between::*;
-use crate::moving::assert_power_is_the_rate_of_energy;
+use crate::moving::{assert_power_is_the_rate_of_energy, laws};
+use gyration::body::Body;
+use gyration::contact::AreaMeasure;
 use gyration::dynamics::Workspace;
 use gyration::kinematics::Placement;
 use gyration::lattice::Lattice;
@@ -10,6 +12,9 @@ use gyration::load::{
     Bond, BondAxes, BondLaw, BondStiffness, DISTANCE_NAMES, Dashpot, InvariantPotential, Spring, Stiffness6,
 };
 use gyration::model::Model;
+use gyration::neighbours::{BodyPair, ImagePair, ImagePairs, PairRule};
+use gyration::pair::PairLaws;
+use gyration::shape::{Shape, Sphere};
 use gyration::state::State;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_expression::Expression;
@@ -110,4 +115,37 @@ fn bonds_keep_momentum_and_angular_momentum() {
         // Rounding of sums of some twenty terms at lengths of two metres.
         assert!(force.norm() <= 1e-14 * size && torque.norm() < 1e-13 * size, "{number}: {force} {torque} of {size}");
     }
+}
+
+/// Balls of every kind that meet their own images and those of others, with damping and friction.
+#[test]
+fn blocks_between_bodies_that_meet_across_cells_are_derivatives_of_the_rates() {
+    let balls = bodies_of(&Shape::Sphere(Sphere { radius: 0.3 }));
+    let free: Vec<Body> = balls.into_iter().filter(|body| body.pin.is_none()).collect();
+    let count = free.len();
+    let [repulsion, damping, friction, _] = laws([5.0, 4.0, 3.0, 2.0]).try_into().unwrap();
+    let laws = PairLaws::new(AreaMeasure::ReferenceArea, vec![repulsion, damping, friction]).unwrap();
+    let all: Arc<[usize]> = (0..count).collect();
+    let rule = PairRule { bodies: [all.clone(), all], laws: Arc::new(laws), reach: None };
+    let lattice = Lattice::new(vec![Vec3::new(1.2, 0.1, 0.0)]).unwrap();
+    let model = Model::new(Vec3::new(0.3, -0.2, -9.81), vec![], free).in_lattice(lattice);
+    let place = |k: usize| Vec3::new(0.0, 1.1 * k as f64, 0.0);
+    let image = |one: usize, other: usize, n: i32| ImagePair {
+        pair: BodyPair { rule: 0, bodies: [one, other] },
+        cell: [n, 0, 0],
+    };
+    let own = (0..count).map(|body| image(body, body, 1));
+    let beside = (0..count - 1).flat_map(|body| [-1, 0, 1].map(|n| image(body, body + 1, n)));
+    let images = ImagePairs::new(own.chain(beside).collect(), (0..count).map(place).collect(), 0.6);
+    let model = model.meeting_images(vec![rule], images);
+    let state = state_at(&model, place);
+    assert_blocks_are_derivatives(&model, &state);
+    assert_power_is_the_rate_of_energy(&model, &state);
+}
+
+#[test]
+fn a_body_that_strays_from_its_cell_leaves_the_model() {
+    let images = ImagePairs::new(Vec::new(), vec![Vec3::x()], 0.5);
+    assert!(images.strayed(0, &Vec3::new(1.4, 0.2, 0.0)).is_none());
+    assert_eq!(images.strayed(0, &Vec3::new(1.0, 0.0, 0.75)), Some(0.75));
 }

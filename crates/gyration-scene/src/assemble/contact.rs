@@ -19,8 +19,8 @@ const MOST_CONTACTS: usize = 1_000_000;
 /// The most pairs of parts of bodies that act on each other however far they are: each takes some 400 bytes.
 const MOST_ENDLESS: usize = 10_000_000;
 
-/// The contacts of bodies with supports, and the rules by which bodies meet with their keys; notes a contact with what has no surface,
-/// and laws out of range.
+/// The contacts of bodies with supports, and the rules by which bodies meet with their keys; notes a contact with what
+/// has no surface, and laws out of range.
 pub(super) fn attach(
     partial: &PartialScene,
     assembled: &[Option<AssembledBody>],

@@ -2,9 +2,9 @@
 //!
 //!   R = ½ c |w|²,   w = Δ̇ − ω̄ × Δ,   ω̄ the mean spin of the bodies that turn
 //!
-//! needs no direction: where the points lie together w = Δ̇. Between two mass points, which have no spin, it is the part
-//! of Δ̇ along Δ. Of a 6×6 matrix R = ½ żᵀ Ĉ ż. Forces are −∂R/∂(velocities); the spin of a body that deforms is that of
-//! the skew part of Ṗ P⁻¹.
+//! needs no direction: where the points lie together w = Δ̇. Between two mass points, which have no spin, it is the
+//! part of Δ̇ along Δ. Of a 6×6 matrix R = ½ żᵀ Ĉ ż. Forces are −∂R/∂(velocities); the spin of a body that deforms is
+//! that of the skew part of Ṗ P⁻¹.
 
 use super::gram::{Span, SpanSlopes};
 use super::stiffness::{BondAxes, Stiffness6};
