@@ -4,6 +4,9 @@
 
 mod case_balanced_pairs;
 mod case_bonds;
+mod case_bands;
+mod case_bands_relations;
+mod case_bands_soft;
 mod case_contracting_box;
 mod case_contraction_modes;
 mod case_deforming_inclusion;
@@ -38,6 +41,7 @@ mod gallery_soft;
 mod gallery_tippe_top;
 mod gallery_top;
 mod independent;
+mod lattices;
 mod row01_free_affine;
 mod row02_simple_shear;
 mod row03_free_rigid_body;

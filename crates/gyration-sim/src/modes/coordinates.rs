@@ -150,7 +150,7 @@ impl Coordinates {
     }
 
     /// z of δp₀ and δP, as far as the body can take it.
-    fn moved(&self, body: &Body, translation: &Vec3, change: &Mat3) -> DVector<f64> {
+    pub fn moved(&self, body: &Body, translation: &Vec3, change: &Mat3) -> DVector<f64> {
         let mut numbers = Vec::with_capacity(self.rates.nrows());
         if body.pin.is_none() {
             numbers.extend_from_slice(translation.as_slice());

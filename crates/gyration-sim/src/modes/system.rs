@@ -242,6 +242,22 @@ impl SystemCoordinates {
         patterns
     }
 
+    /// z of a motion of each body, δp₀ and δP.
+    #[cfg(test)]
+    pub fn moved(
+        &self,
+        frozen: &FrozenSystem,
+        motion: impl Fn(usize) -> (gyration::tensor::Vec3, Mat3),
+    ) -> DVector<f64> {
+        let mut whole = DVector::zeros(self.counts()[0]);
+        for (index, (body, at)) in frozen.bodies().iter().zip(&self.bodies).enumerate() {
+            let (translation, change) = motion(index);
+            let own = at.places.moved(body, &translation, &change);
+            whole.rows_mut(at.z.start, at.z.len()).copy_from(&own);
+        }
+        whole
+    }
+
     /// Translations of all bodies along the axes, as unit vectors of z.
     fn translations(&self, frozen: &FrozenSystem) -> Vec<DVector<f64>> {
         let along = |axis: usize| {

@@ -20,6 +20,9 @@ pub(super) type C64 = Complex<f64>;
 /// Differences below this part of the largest entry are the rounding of a Jacobian.
 const ROUNDING: f64 = 1e-11;
 
+/// Shares of the kinetic energy below this are rounding.
+const NO_SHARE: f64 = 1e-15;
+
 /// The matrices of the cells that act on one.
 #[derive(Debug)]
 pub(super) struct BlochSystem {
@@ -138,8 +141,8 @@ impl BlochSystem {
         };
         let shares = self.parts.each_ref().map(form);
         let total: f64 = shares.iter().sum();
-        // Rounding below zero is none.
-        shares.map(|share| if total > 0.0 { (share / total + 1e-17).max(0.0) } else { 0.0 })
+        // Terms of two parts, halved for each, may leave a share below zero; rounding is none.
+        shares.map(|share| if total > 0.0 && share.abs() > NO_SHARE * total { share / total } else { 0.0 })
     }
 }
 

@@ -9,6 +9,8 @@
 mod bloch;
 mod mesh;
 mod path;
+#[cfg(test)]
+mod relations;
 mod waves;
 
 pub use mesh::{BandGap, StateDensity, Zone};
