@@ -34,9 +34,9 @@ fn in_words(scene: &Scene) -> String {
     let mut text = format!("{}\n{}", scene.title(), assumptions(scene));
     let SceneModes { bodies, systems } = survey::modes(scene);
     let all = &scene.built().model.bodies;
-    let alone = all.iter().zip(&bodies).filter(|(_, modes)| modes.system.is_none());
+    let mut alone = all.iter().zip(&bodies).filter(|(_, modes)| modes.system.is_none());
     // Writing to a string does not fail.
-    let _ = alone.map(|(body, modes)| write_body(&mut text, body, modes)).collect::<std::fmt::Result>();
+    let _ = alone.try_for_each(|(body, modes)| write_body(&mut text, body, modes));
     let _ = systems.iter().enumerate().try_for_each(|(number, system)| {
         let members = bodies.iter().zip(all).filter(|(body, _)| body.system == Some(number));
         write_system(&mut text, number, system, &members.map(|(_, body)| &**body).collect::<Vec<_>>())
