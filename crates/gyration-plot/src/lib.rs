@@ -1,4 +1,4 @@
-//! Pictures: of recordings, of contact laws, of the tables of studies, of fits to measurements.
+//! Pictures: of recordings, of contact laws, of bands, of the tables of studies, of fits to measurements.
 //!
 //! ```text
 //! recording, scene → show (which quantities) → figure: charts and strips (how they are laid out)
@@ -12,6 +12,7 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+mod bands;
 #[cfg(feature = "study")]
 pub mod calibration;
 mod classes;
@@ -29,6 +30,7 @@ mod strip;
 pub mod study;
 mod thin;
 
+pub use bands::bands;
 pub use draw::Format;
 pub use error::PlotError;
 pub use figure::Figure;

@@ -30,6 +30,8 @@ pub struct Axis {
     pub high: f64,
     /// Names of the values 0, 1, 2, …; empty for an axis of numbers.
     pub words: Vec<String>,
+    /// Values that have names, the only ones with ticks; empty for an axis of numbers.
+    pub places: Vec<(f64, String)>,
 }
 
 /// The smallest and the largest of the finite values, if there is one.
@@ -58,7 +60,15 @@ impl Axis {
     /// An axis from `low` to `high` without any margin.
     pub fn exact(name: &str, unit: &str, low: f64, high: f64) -> Self {
         let high = if high > low { high } else { low + low.abs().max(1.0) };
-        Self { name: name.to_owned(), unit: unit.to_owned(), scale: AxisScale::Linear, low, high, words: Vec::new() }
+        Self {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            scale: AxisScale::Linear,
+            low,
+            high,
+            words: Vec::new(),
+            places: Vec::new(),
+        }
     }
 
     /// An axis on which names stand one beside the other.
@@ -92,6 +102,7 @@ impl Axis {
             low,
             high,
             words: Vec::new(),
+            places: Vec::new(),
         }
     }
 
@@ -124,6 +135,10 @@ impl Axis {
         if !self.words.is_empty() {
             let tick = |(k, word): (usize, &String)| Tick { value: k as f64, label: Some(word.clone()) };
             return self.words.iter().enumerate().map(tick).collect();
+        }
+        if !self.places.is_empty() {
+            let tick = |(value, name): &(f64, String)| Tick { value: *value, label: Some(name.clone()) };
+            return self.places.iter().map(tick).collect();
         }
         match self.scale {
             AxisScale::Logarithmic => ticks::logarithmic(self.low, self.high, count),

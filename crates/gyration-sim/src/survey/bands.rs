@@ -29,6 +29,9 @@ pub struct BandSurvey {
     pub shapes: Option<Vec<Vec<Named<BandShape>>>>,
     /// The vertices with names: the number of the row, and the name.
     pub labels: Vec<(usize, String)>,
+    /// The rows at which there are vertices.
+    #[serde(skip)]
+    pub vertices: Vec<usize>,
     /// The rows at which the path begins anew.
     pub begins: Vec<usize>,
     /// Where the cell is looked at.
@@ -124,6 +127,7 @@ impl BandSurvey {
             participation: rows.iter().map(|row| row.branches.iter().map(|it| it.participation).collect()).collect(),
             shapes,
             labels: points().filter_map(|(row, point)| Some((row, point.label.clone()?))).collect(),
+            vertices: points().filter(|(_, point)| point.is_vertex).map(|(row, _)| row).collect(),
             begins: points().filter(|(_, point)| point.begins).map(|(row, _)| row).collect(),
             rest: rest(&waves, &names),
             warnings: warnings(&waves, &rows),
