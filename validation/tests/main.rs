@@ -3,10 +3,11 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
 mod case_balanced_pairs;
-mod case_bonds;
 mod case_bands;
 mod case_bands_relations;
 mod case_bands_soft;
+mod case_bonds;
+mod case_complex_bands;
 mod case_contracting_box;
 mod case_contraction_modes;
 mod case_deforming_inclusion;

@@ -33,7 +33,7 @@ mod tree;
 pub mod units;
 mod unknown;
 
-pub use assemble::{Built, Plan, Record, StopAtRest, TRIANGLES, UnitCell};
+pub use assemble::{Built, CellLoad, Plan, Record, StopAtRest, TRIANGLES, UnitCell};
 pub use error::{ErrorKind, LoadError, NotToml, ReadError, SceneError, SceneErrors};
 pub use file::{Method, Recorded};
 pub use gallery::{NotInGallery, gallery, gallery_scene};

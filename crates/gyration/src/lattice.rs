@@ -84,7 +84,7 @@ impl Lattice {
     }
 
     /// The vectors as columns, and unit vectors across them in the place of those that there are not.
-    fn completed(&self) -> Mat3 {
+    pub fn completed(&self) -> Mat3 {
         let across = |a: &Vec3| {
             let axis = a.iamin();
             a.cross(&Vec3::ith(axis, 1.0)).normalize()

@@ -1,34 +1,97 @@
 //! `gyration bands`: the waves of a lattice.
 
+mod phonopy;
+mod special;
+
+use super::plot;
 use crate::arguments::Bands;
 use crate::error::{CliError, code};
 use crate::input::ready;
 use crate::output;
 use crate::waiting::waiting;
+use gyration_record::write_file;
+use gyration_scene::Scene;
 use gyration_sim::format::{significant, vector};
-use gyration_sim::survey::{BandOptions, BandSurvey};
+use gyration_sim::modes::bands::StrainPath;
+use gyration_sim::survey::{BandOptions, BandSurvey, ComplexBandOptions, ComplexBandSurvey, StrainSurvey, unit_cell};
 use std::fmt::Write as _;
+use std::path::PathBuf;
 
-/// Prints the bands of a lattice along a path.
+/// Prints the bands of a lattice along a path, all wave vectors of frequencies, or what becomes of it under strain.
 pub fn execute(arguments: &Bands) -> Result<u8, CliError> {
     let name = &arguments.scene.scene;
     let scene = waiting(format!("opening {name}"), true, || ready(&arguments.scene))?;
-    let options = BandOptions {
-        points: arguments.points.get(),
-        mesh: arguments.mesh.map(std::num::NonZero::get),
-        shapes: arguments.shapes,
-    };
-    let found = waiting(format!("looking for the waves of {name}"), true, || {
-        BandSurvey::of(&scene, arguments.path.as_deref(), options)
-    });
-    let found = found.map_err(|reason| CliError::arguments(reason, "see `gyration bands --help`"))?;
-    found.warnings.iter().for_each(|warning| output::say(&format!("warning: {warning}")));
-    let text = match arguments.json {
-        true => format!("{:#}\n", serde_json::json!(found)),
-        false => in_words(&scene.title(), &found),
+    let looking = format!("looking for the waves of {name}");
+    let text = if let Some(along) = &arguments.along {
+        let path = strains(along)?;
+        let mesh = arguments.mesh.map(std::num::NonZero::get);
+        let found = waiting(looking, true, || StrainSurvey::of(&scene, &path, arguments.steps.get(), mesh));
+        let found = found.map_err(refused)?;
+        let words = || special::strained(scene.title(), &found);
+        if arguments.json { json(&serde_json::json!(found)) } else { words() }
+    } else if arguments.complex {
+        let (path, options, complex) = (arguments.path.as_deref(), options(arguments)?, complex(arguments)?);
+        let found = waiting(looking, true, || ComplexBandSurvey::of(&scene, path, options, complex));
+        let found = found.map_err(refused)?;
+        let words = || special::complex(scene.title(), &found);
+        if arguments.json { json(&serde_json::json!(found)) } else { words() }
+    } else {
+        let (path, options) = (arguments.path.as_deref(), options(arguments)?);
+        let found = waiting(looking, true, || BandSurvey::of(&scene, path, options)).map_err(refused)?;
+        found.warnings.iter().for_each(|warning| output::say(&format!("warning: {warning}")));
+        write_files(arguments, &scene, &found)?;
+        if arguments.json { json(&serde_json::json!(found)) } else { in_words(scene.title(), &found) }
     };
     output::print(&text)?;
     Ok(code::DONE)
+}
+
+/// The picture and the file for other programs.
+fn write_files(arguments: &Bands, scene: &Scene, found: &BandSurvey) -> Result<(), CliError> {
+    if let Some(path) = &arguments.plot {
+        let format = plot::format(Some(path))?;
+        plot::write(&gyration_plot::bands(scene.title(), found), Some(path), format, PathBuf::new)?;
+    }
+    if let Some(path) = &arguments.yaml {
+        let cell = unit_cell(scene).map_err(refused)?;
+        write_file(path, phonopy::band_yaml(found, cell).as_bytes())?;
+        output::say(&format!("wrote {}", path.display()));
+    }
+    Ok(())
+}
+
+fn json(found: &serde_json::Value) -> String {
+    format!("{found:#}\n")
+}
+
+fn refused(reason: String) -> CliError {
+    CliError::arguments(reason, "see `gyration bands --help`")
+}
+
+fn strains(text: &str) -> Result<StrainPath, CliError> {
+    StrainPath::parse(text).map_err(|error| refused(error.to_string()))
+}
+
+fn options(arguments: &Bands) -> Result<BandOptions, CliError> {
+    Ok(BandOptions {
+        points: arguments.points.get(),
+        mesh: arguments.mesh.map(std::num::NonZero::get),
+        shapes: arguments.shapes,
+        strain: arguments.strain.as_deref().map(strains).transpose()?,
+    })
+}
+
+fn complex(arguments: &Bands) -> Result<ComplexBandOptions, CliError> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|value| value.is_finite() && *value >= 0.0);
+    let omega = match &arguments.omega {
+        None => None,
+        Some(text) => {
+            let ends = text.split_once("..").and_then(|(from, to)| Some([number(from)?, number(to)?]));
+            let wrong = || refused(format!("\"{text}\" is no range of frequencies: write 0..20"));
+            Some(ends.ok_or_else(wrong)?)
+        }
+    };
+    Ok(ComplexBandOptions { direction: usize::from(arguments.direction) - 1, omega })
 }
 
 fn in_words(title: &str, found: &BandSurvey) -> String {

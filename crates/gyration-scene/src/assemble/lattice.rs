@@ -11,7 +11,7 @@ use gyration::lattice::{Cell, Lattice};
 use gyration::load::{Attachment, Bond, Spring};
 use gyration::neighbours::PairRule;
 use gyration::support::Support;
-use gyration::tensor::Vec3;
+use gyration::tensor::{Mat3, Vec3};
 
 /// The most cells of a run.
 const MOST_CELLS: u64 = 1_000_000;
@@ -26,6 +26,43 @@ pub(super) struct Cells {
     periodic: [bool; 3],
     /// Whether granules seek their rest.
     pub relaxes: bool,
+    /// Under which load cell vectors seek theirs too.
+    pub load: Option<CellLoad>,
+}
+
+/// What loads a cell whose vectors are at rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CellLoad {
+    /// A nominal stress S̄ [Pa; of a sheet N/m, of a chain N].
+    Stress(Mat3),
+    /// A pressure, in the same unit.
+    Pressure(f64),
+}
+
+/// The load under which cell vectors rest; notes one that has no meaning.
+fn load(written: &file::Lattice, key: &Key, reporter: &mut Reporter<'_>) -> Option<CellLoad> {
+    let rests = written.relax.contains(&Relaxed::Cell);
+    let given = [("stress", written.stress.is_some()), ("pressure", written.pressure.is_some())];
+    if let (Some((name, _)), false) = (given.into_iter().find(|(_, is_given)| *is_given), rests) {
+        let message = "the cell vectors stay as they are written, under whatever stress that takes";
+        reporter.note(&key.key(name), message, "leave it out, or write relax = [\"cell\"]");
+        return None;
+    }
+    match (written.stress, written.pressure) {
+        (Some(_), Some(_)) => {
+            reporter.note(&key.key("pressure"), "the stress is given too", "leave one of them out");
+            None
+        }
+        (_, Some(pressure)) => Some(CellLoad::Pressure(pressure)),
+        (stress, None) => {
+            let stress = Mat3::from_fn(|i, j| stress.map_or(0.0, |stress| stress[i][j]));
+            if stress != stress.transpose() {
+                let message = "the stress is not symmetric, and the cell does not turn under it";
+                reporter.note(&key.key("stress"), message, "write the same across the diagonal");
+            }
+            rests.then_some(CellLoad::Stress(stress))
+        }
+    }
 }
 
 impl Cells {
@@ -66,8 +103,9 @@ impl Cells {
             reporter.note(&key.key("repeat"), format!("there are more than {MOST_CELLS} cells"), "repeat fewer");
             return None;
         }
-        let relaxes = written.relax.contains(&Relaxed::Granules);
-        Some(Self { lattice, repeat, periodic, relaxes })
+        let relaxes = !written.relax.is_empty();
+        let load = load(written, &key, reporter);
+        Some(Self { lattice, repeat, periodic, relaxes, load })
     }
 
     /// Those of which bands are: one along what is periodic.

@@ -51,6 +51,7 @@ use gyration::state::{Start, State};
 use gyration::support::Support;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_threads::Interruption;
+pub use lattice::CellLoad;
 use lattice::Cells;
 use solids::Solids;
 use std::collections::BTreeSet;
@@ -84,6 +85,8 @@ pub struct UnitCell {
     pub periodic: Vec<bool>,
     /// Whether its bodies seek their rest before bands are computed.
     pub relaxes: bool,
+    /// Under which load its vectors seek theirs too, if they do.
+    pub load: Option<CellLoad>,
 }
 
 /// Quantities that are recorded on request.
@@ -222,7 +225,7 @@ pub(crate) fn assemble(
     let unit = cells.as_ref().map(|cells| {
         let unit = cells.unit();
         let (model, state) = parts.clone().repeated(&unit, &rule_keys, reporter).built()?;
-        Some(UnitCell { model, state, periodic: cells.periodic(), relaxes: cells.relaxes })
+        Some(UnitCell { model, state, periodic: cells.periodic(), relaxes: cells.relaxes, load: cells.load })
     });
     let cell = unit.map(|unit| unit.ok_or(())).transpose().ok()?;
     let (model, state) = match &cells {

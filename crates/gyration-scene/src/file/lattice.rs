@@ -21,6 +21,12 @@ pub struct Lattice {
     /// What seeks its rest before bands are computed.
     #[serde(default)]
     pub relax: Vec<Relaxed>,
+    /// The nominal stress under which the cell rests (Pa; of a sheet N/m, of a chain N), row by row; none if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stress: Option<[[f64; 3]; 3]>,
+    /// The pressure under which it rests instead.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pressure: Option<f64>,
 }
 
 /// A number of cells.
@@ -40,6 +46,8 @@ pub struct CellOffset(#[schemars(with = "i32", range(min = -1_000_000, max = 1_0
 pub enum Relaxed {
     /// The bodies, within the cell as it is written.
     Granules,
+    /// The bodies, and the cell vectors too: a symmetric deformation of them.
+    Cell,
 }
 
 fn once() -> [CellCount; 3] {

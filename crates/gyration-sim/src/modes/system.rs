@@ -259,7 +259,7 @@ impl SystemCoordinates {
     }
 
     /// Translations of all bodies along the axes, as unit vectors of z.
-    fn translations(&self, frozen: &FrozenSystem) -> Vec<DVector<f64>> {
+    pub fn translations(&self, frozen: &FrozenSystem) -> Vec<DVector<f64>> {
         let along = |axis: usize| {
             let mut whole = DVector::zeros(self.counts()[0]);
             for (body, at) in frozen.bodies().iter().zip(&self.bodies) {

@@ -2,7 +2,7 @@
 
 use super::modes::{Named, RestPlace};
 use crate::modes::PARTS;
-use crate::modes::bands::{BandPath, BandRow, BandShape, LatticeWaves, NoBands, Zone};
+use crate::modes::bands::{BandPath, BandRow, BandShape, LatticeWaves, NoBands, Sound, StrainPath, StrainedCell, Zone};
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::{Scene, UnitCell};
 use serde::Serialize;
@@ -34,6 +34,8 @@ pub struct BandSurvey {
     pub vertices: Vec<usize>,
     /// The rows at which the path begins anew.
     pub begins: Vec<usize>,
+    /// The speeds of long waves along each periodic direction; none where something resists or drives.
+    pub sound: Vec<Sound>,
     /// Where the cell is looked at.
     pub rest: CellRestSurvey,
     /// What a mesh over the zone tells.
@@ -57,7 +59,7 @@ pub struct CellRestSurvey {
 }
 
 /// What is asked of bands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BandOptions {
     /// Wave vectors a segment of the path.
     pub points: usize,
@@ -65,6 +67,8 @@ pub struct BandOptions {
     pub mesh: Option<usize>,
     /// Whether shapes are wanted.
     pub shapes: bool,
+    /// How the cell is deformed at first, if it is: its bodies then seek their rest; of a path its beginning counts.
+    pub strain: Option<StrainPath>,
 }
 
 /// The cell of a scene whose bands are asked for.
@@ -98,7 +102,7 @@ impl BandSurvey {
         let path = BandPath::parse(path.unwrap_or(&usual), options.points, &cell.periodic);
         let path = path.map_err(|error| error.to_string())?;
         let told = |error: NoBands| error.to_string();
-        let waves = LatticeWaves::new(&cell.model, &cell.state, cell.relaxes).map_err(told)?;
+        let waves = waves_of(cell, options.strain.as_ref()).map_err(told)?;
         let rows = path.points.iter().map(|point| waves.row(point, options.shapes));
         let rows: Vec<BandRow> = rows.collect::<Result<_, _>>().map_err(told)?;
         let zone = options.mesh.map(|mesh| waves.zone(mesh, &cell.periodic)).transpose().map_err(told)?;
@@ -129,11 +133,27 @@ impl BandSurvey {
             labels: points().filter_map(|(row, point)| Some((row, point.label.clone()?))).collect(),
             vertices: points().filter(|(_, point)| point.is_vertex).map(|(row, _)| row).collect(),
             begins: points().filter(|(_, point)| point.begins).map(|(row, _)| row).collect(),
+            sound: waves.sound(&cell.periodic).map_err(told)?,
             rest: rest(&waves, &names),
             warnings: warnings(&waves, &rows),
             zone,
         })
     }
+}
+
+/// The waves of a cell, deformed or as it is written.
+pub(super) fn waves_of(cell: &UnitCell, strain: Option<&StrainPath>) -> Result<LatticeWaves, NoBands> {
+    match (strain, cell.load) {
+        (None, None) => LatticeWaves::new(&cell.model, &cell.state, cell.relaxes),
+        (None, Some(_)) => Ok(beginning(cell)?.at(&Mat3::identity())?.1),
+        (Some(strain), _) => Ok(beginning(cell)?.at(&strain.at(0.0))?.1),
+    }
+}
+
+/// The cell that strains are of: as it is written, or as it rests under its stress.
+pub(super) fn beginning(cell: &UnitCell) -> Result<StrainedCell, NoBands> {
+    let written = StrainedCell::new(&cell.model, &cell.state);
+    cell.load.map_or(Ok(written.clone()), |load| written.at_rest(load))
 }
 
 fn rest(waves: &LatticeWaves, names: &[&str]) -> CellRestSurvey {

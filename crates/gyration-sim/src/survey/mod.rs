@@ -10,6 +10,7 @@
 pub(crate) mod balance;
 mod bands;
 mod bodies;
+mod complex_bands;
 mod contraction;
 mod crowd;
 mod encounter;
@@ -22,11 +23,13 @@ mod reach_change;
 pub(crate) mod remarks;
 mod rest;
 mod springs;
+mod strained;
 mod text;
 mod words;
 
 pub use bands::{BandOptions, BandSurvey, CellRestSurvey, unit_cell};
 pub use bodies::{BodyModes, BodySurvey, PairSurvey, SceneModes, Survey, SystemModes, modes, modes_in_json};
+pub use complex_bands::{ComplexBandOptions, ComplexBandSurvey};
 pub use encounter::Encounter;
 pub use kind::KindSurvey;
 pub use laws::LawSurvey;
@@ -35,4 +38,5 @@ pub use meetings::MeetingSurvey;
 pub use modes::{ModeSurvey, Named, RestPlace, RestState, ShapeSurvey, SystemRestState};
 pub use rest::{Approach, RestGap};
 pub use springs::SpringSurvey;
+pub use strained::{InstabilitySurvey, StrainRow, StrainSurvey};
 pub use words::write_rest;

@@ -99,6 +99,24 @@ impl BlochSystem {
         self.summed(|cell| phase(kappa, cell.cell) * C64::new(0.0, cell.place.dot(along)))
     }
 
+    /// Their second derivatives at k = 0 along a direction [m² × each].
+    pub fn curvature(&self, along: &Vec3) -> WaveMatrices {
+        self.summed(|cell| C64::new(-cell.place.dot(along) * cell.place.dot(along), 0.0))
+    }
+
+    /// How many cells away along a direction something still acts.
+    pub fn reach(&self, direction: usize) -> i32 {
+        self.cells.iter().map(|cell| cell.cell[direction].abs()).max().unwrap_or(0)
+    }
+
+    /// The part of the cells that are so many away along a direction, with the phases of the others.
+    pub fn wave_of_layer(&self, kappa: &[f64; 3], direction: usize, layer: i32) -> WaveMatrices {
+        let mut across = *kappa;
+        across[direction] = 0.0;
+        let is_in = |cell: Cell| cell[direction] == layer;
+        self.summed(|cell| if is_in(cell.cell) { phase(&across, cell.cell) } else { C64::new(0.0, 0.0) })
+    }
+
     fn summed(&self, factor: impl Fn(&CellMatrices) -> C64) -> WaveMatrices {
         let [size, own] = self.counts;
         let mut sum = WaveMatrices {

@@ -3,18 +3,27 @@
 //!   ξ_i(R, t) = Re ξ_i e^{i(k·R − ωt) − δt},   k = Σ κ_a b_a,   λ = −δ − iω
 //!
 //! `path` reads wave vectors, `bloch` has the matrices of the small motions of one cell and of those at a wave vector,
-//! `waves` their roots, shapes and group velocities. The cell is linearized about its rest, or about the state as it is
-//! written.
+//! `waves` their roots, shapes and group velocities, `evanescent` all wave vectors of a frequency, `sound` the speeds
+//! of long waves, `stability` the wave that grows first, `strained` deforms the cell. The cell is linearized about its
+//! rest, or about the state as it is written.
 
 mod bloch;
+mod cell_rest;
+mod evanescent;
 mod mesh;
 mod path;
 #[cfg(test)]
 mod relations;
+mod sound;
+mod stability;
+mod strained;
 mod waves;
 
 pub use mesh::{BandGap, StateDensity, Zone};
 pub use path::{BandPath, PathError, PathPoint};
+pub use sound::Sound;
+pub use stability::{LeastSquare, Stability, Unstable, ZoneMesh};
+pub use strained::{Instability, StrainError, StrainPath, StrainedCell, StrainedRow};
 
 use super::frozen::{FrozenContraction, FrozenSystem};
 use super::participation::PARTS;
@@ -66,6 +75,15 @@ pub enum NoBands {
     /// The roots were not found.
     #[error("the roots at κ = ({:?}, {:?}, {:?}) could not be found: the iteration did not end", .0[0], .0[1], .0[2])]
     Roots([f64; 3]),
+    /// The wave vectors of a frequency were not found.
+    #[error("the wave vectors at ω = {0:?} rad/s could not be found: the iteration did not end")]
+    Evanescent(f64),
+    /// Nothing holds the cell.
+    #[error("no least energy holds the cell vectors: F̄_{0} has no stiffness, or less than none, under this stress")]
+    CellNotHeld(String),
+    /// The cell at rest was not found.
+    #[error("no cell at rest was found: steps of {0:.1e} in F̄ are left; begin with vectors nearer to it")]
+    CellNotFound(f64),
     /// They were given up.
     #[error("they were given up: they take longer than solver.max_wall_time")]
     Interrupted,
@@ -169,6 +187,18 @@ impl LatticeWaves {
             gradient: [0, 1, 2].map(|i| [0, 1, 2].map(|j| [re.gradient[(i, j)], im.gradient[(i, j)]])),
         };
         real.iter().zip(&imaginary).map(shape).collect()
+    }
+
+    /// All complex κ along a direction (0, 1, 2) that ω has [rad/s], real and imaginary part, the others as given; |Im
+    /// κ| ascends and is at most 6.
+    ///
+    /// # Errors
+    /// [`NoBands`].
+    pub fn evanescent(&self, kappa: &[f64; 3], direction: usize, omega: f64) -> Result<Vec<[f64; 2]>, NoBands> {
+        if Interruption::due().is_some() {
+            return Err(NoBands::Interrupted);
+        }
+        self.system.evanescent(kappa, direction, omega)
     }
 
     /// The waves at a point of a path.

@@ -17,13 +17,13 @@ use gyration::tensor::Vec3;
 use nalgebra::{ComplexField, DMatrix, DVector, Schur};
 
 /// ω² below this part of the stiffest is zero.
-const NEUTRAL: f64 = 1e-12;
+pub(super) const NEUTRAL: f64 = 1e-12;
 /// Real or imaginary parts below this part of the largest root are rounding.
 const ROUNDING: f64 = 1e-10;
 /// Roots nearer than this part of the largest are one.
 const SAME: f64 = 1e-8;
 /// Sweeps of an iteration at most.
-const SWEEPS: usize = 10_000;
+pub(super) const SWEEPS: usize = 10_000;
 
 /// A root and its shape.
 #[derive(Debug, Clone, PartialEq)]
@@ -141,7 +141,7 @@ fn branches(waves: Vec<Wave>, count: usize) -> Vec<Wave> {
 }
 
 /// The Hermitian part.
-fn hermitian(matrix: DMatrix<C64>) -> DMatrix<C64> {
+pub(super) fn hermitian(matrix: DMatrix<C64>) -> DMatrix<C64> {
     let half = C64::new(0.5, 0.0);
     (&matrix + matrix.adjoint()) * half
 }

@@ -1,0 +1,183 @@
+//! `gyration bands`: what it prints, and what it refuses.
+
+use crate::common::Sandbox;
+use serde_json::Value;
+
+/// Masses of ½ kg on springs of 40 N/m that are a fifth longer than they were.
+const STRING: &str = "\
+title = \"a string\"
+[world]
+gravity = [0, 0, 0]
+[time]
+end = 1
+sample = 1
+[lattice]
+cell = [[1, 0, 0]]
+[[body]]
+name = \"a\"
+shape = { points = [{ mass = 0.5, at = [0, 0, 0] }] }
+[[spring]]
+between = [\"a\", \"a\"]
+cell = [1, 0, 0]
+stiffness = 40
+rest_length = 0.8
+";
+
+/// Two masses in turn, along a line that nothing stretches.
+const DIATOMIC: &str = "\
+[world]
+gravity = [0, 0, 0]
+[time]
+end = 1
+sample = 1
+[lattice]
+cell = [[1, 0, 0]]
+[[body]]
+name = \"a\"
+shape = { points = [{ mass = 2, at = [0, 0, 0] }] }
+[[body]]
+name = \"b\"
+shape = { points = [{ mass = 1, at = [0, 0, 0] }] }
+position = [0.5, 0, 0]
+[[spring]]
+between = [\"a\", \"b\"]
+stiffness = 3
+rest_length = 0.5
+[[spring]]
+between = [\"b\", \"a\"]
+cell = [1, 0, 0]
+stiffness = 3
+rest_length = 0.5
+";
+
+fn sandbox() -> Sandbox {
+    let sandbox = Sandbox::new();
+    sandbox.write("string.toml", STRING);
+    sandbox.write("diatomic.toml", DIATOMIC);
+    sandbox
+}
+
+fn json(sandbox: &Sandbox, arguments: &[&str]) -> Value {
+    let arguments = [&["bands"][..], arguments, &["--json"]].concat();
+    serde_json::from_str(&sandbox.done(&arguments).stdout).unwrap()
+}
+
+#[track_caller]
+fn assert_near(found: &Value, expected: f64) {
+    let found = found.as_f64().unwrap();
+    // Rounding of some ten operations, in the square of a frequency.
+    assert!((found - expected).abs() < 1e-12 * expected.abs().max(1.0), "{found} {expected}");
+}
+
+#[test]
+fn bands_of_a_string_are_those_of_its_tension() {
+    let sandbox = sandbox();
+    let found = json(&sandbox, &["string.toml", "--path", "0,0,0 X=1/2,0,0", "--points", "3", "--shapes"]);
+    let (across, along) = (2.0 * 16_f64.sqrt(), 2.0 * 80_f64.sqrt());
+    assert_eq!(found["kappa"], serde_json::json!([[0.0, 0.0, 0.0], [0.25, 0.0, 0.0], [0.5, 0.0, 0.0]]));
+    assert_near(&found["omega"][2][0], across);
+    assert_near(&found["omega"][1][2], along * 0.5_f64.sqrt());
+    assert_near(&found["velocity"][1][2][0], 80_f64.sqrt() * 0.5_f64.sqrt());
+    assert_near(&found["sound"][0]["speed"][0], 4.0);
+    assert_near(&found["sound"][0]["speed"][2], 80_f64.sqrt());
+    assert_near(&found["rest"]["force"][0][0], 8.0);
+    assert_eq!(found["labels"], serde_json::json!([[2, "X"]]));
+    assert_eq!(found["shapes"][1][0]["a"]["translation"].as_array().unwrap().len(), 3);
+    let words = sandbox.done(&["bands", "string.toml", "--points", "3"]).stdout;
+    assert!(words.contains("cell vector 1") && words.contains("17.8885"), "{words}");
+}
+
+#[test]
+fn complex_bands_decay_in_a_gap() {
+    let sandbox = sandbox();
+    let arguments = ["diatomic.toml", "--complex", "--omega", "1..2.1", "--points", "12"];
+    let found = json(&sandbox, &arguments);
+    // cos q = 1 − ω²(m₁ + m₂)/k + ω⁴m₁m₂/(2k²).
+    for (omega, kappa) in found["omega"].as_array().unwrap().iter().zip(found["kappa"].as_array().unwrap()) {
+        let square = omega.as_f64().unwrap().powi(2);
+        let cosine = 1.0 - square + square * square / 9.0;
+        assert_eq!(kappa.as_array().unwrap().len(), 2, "{omega}");
+        for wave in kappa.as_array().unwrap() {
+            let [re, im] = [0, 1].map(|k| std::f64::consts::TAU * wave[k].as_f64().unwrap());
+            // Rounding grows where two κ are near one another.
+            assert!((re.cos() * im.cosh() - cosine).abs() < 1e-9, "{omega} {wave} {cosine}");
+            assert!(re.sin().abs() < 1e-9 || im == 0.0, "{omega} {wave}");
+        }
+    }
+    let words = sandbox.done(&[&["bands"][..], &arguments].concat()).stdout;
+    assert!(words.contains("0.50000"), "{words}");
+}
+
+#[test]
+fn a_string_buckles_where_it_is_slack() {
+    let sandbox = sandbox();
+    let found = json(&sandbox, &["string.toml", "--along", "xx=0..-0.4", "--steps", "5"]);
+    assert_eq!(found["path"].as_array().unwrap().len(), 5);
+    assert_near(&found["path"][1]["force"][0][0], 4.0);
+    let first = &found["instability"];
+    // ω² below zero by 1e-10 of the stiffest is rounding.
+    assert!((first["s"].as_f64().unwrap() - 0.5).abs() < 1e-9, "{first}");
+    assert_eq!(first["macroscopic"], true);
+    assert!(found["path"][4]["least_omega2"].as_f64().unwrap() < -10.0);
+    let words = sandbox.done(&["bands", "string.toml", "--along", "xx=0..-0.4", "--steps", "3"]).stdout;
+    assert!(words.contains("unstable from s = 0.5"), "{words}");
+    let stretched = json(&sandbox, &["string.toml", "--strain", "xx=0.1", "--points", "2"]);
+    assert_near(&stretched["rest"]["force"][0][0], 12.0);
+}
+
+#[test]
+fn pictures_and_files_for_other_programs_are_written() {
+    let sandbox = sandbox();
+    let path = ["--path", "G=0,0,0 X=0.5,0,0 | 0.25,0,0 G=0,0,0", "--points", "5", "--mesh", "8", "--shapes"];
+    let files = ["--plot", "bands.svg", "--yaml", "band.yaml"];
+    let said = sandbox.done(&[&["bands", "diatomic.toml"][..], &path, &files].concat());
+    assert!(said.stderr.contains("wrote bands.svg") && said.stdout.contains("gap 1.73205"), "{}", said.stdout);
+    let picture = std::fs::read_to_string(sandbox.path("bands.svg")).unwrap();
+    assert!(picture.starts_with("<svg") || picture.starts_with("<?xml"));
+    let text = std::fs::read_to_string(sandbox.path("band.yaml")).unwrap();
+    assert!(text.contains("nqpoint: 10\nnpath: 2\nsegment_nqpoint:\n- 5\n- 5\n"), "{text}");
+    assert!(text.contains("- [ 'G', 'X' ]") && text.contains("natom: 2"), "{text}");
+    assert_eq!((text.matches("q-position").count(), text.matches("frequency:").count()), (10, 60));
+    assert_eq!(text.matches("eigenvector:").count(), 60);
+}
+
+#[test]
+fn what_bands_cannot_do_is_refused() {
+    let sandbox = sandbox();
+    sandbox.write("alone.toml", &STRING.replace("[lattice]\ncell = [[1, 0, 0]]\n", "").replace("cell = [1, 0, 0]", ""));
+    sandbox.write("free.toml", &STRING.replace("cell = [[1, 0, 0]]", "cell = [[1, 0, 0]]\nperiodic = false"));
+    for (arguments, word) in [
+        (&["string.toml", "--path", "0,0,0 X"][..], "no vertex"),
+        (&["string.toml", "--path", "0,0.5,0"], "leaves what is periodic"),
+        (&["free.toml"], "gyration modes"),
+        (&["string.toml", "--complex", "--direction", "2"], "not periodic"),
+        (&["string.toml", "--complex", "--omega", "3"], "0..20"),
+        (&["string.toml", "--along", "xx"], "no component"),
+        (&["string.toml", "--strain", "xx=-1"], "det"),
+        (&["string.toml", "--omega", "0..3"], "--complex"),
+        (&["string.toml", "--plot", "bands.gif"], ""),
+    ] {
+        let said = sandbox.refused(2, &[&["bands"][..], arguments].concat());
+        assert!(said.stderr.contains(word), "{arguments:?}: {}", said.stderr);
+    }
+    let said = sandbox.run(&["bands", "alone.toml"]);
+    assert!(said.code != Some(0) && !said.stderr.contains("panicked"), "{}", said.stderr);
+}
+
+#[test]
+fn a_cell_rests_under_its_stress_or_is_told_to_be_floppy() {
+    let sandbox = sandbox();
+    let stress = ["--set", "lattice.stress=[[4, 0, 0], [0, 0, 0], [0, 0, 0]]"];
+    let relax = ["string.toml", "--points", "2", "--set", "lattice.relax=[\"granules\", \"cell\"]"];
+    let found = json(&sandbox, &[&relax[..], &stress].concat());
+    assert_near(&found["rest"]["cell"][0][0], 0.9);
+    assert_near(&found["rest"]["force"][0][0], 4.0);
+    let pressed = json(&sandbox, &[&relax[..], &["--set", "lattice.pressure=-6"]].concat());
+    assert_near(&pressed["rest"]["cell"][0][0], 0.95);
+    // A sheet of nothing but squares can be sheared.
+    let square = STRING.replace("[[1, 0, 0]]", "[[1, 0, 0], [0, 1, 0]]\nrelax = [\"cell\"]");
+    let across = "[[spring]]\nbetween = [\"a\", \"a\"]\ncell = [0, 1, 0]\nstiffness = 40\nrest_length = 0.8\n";
+    sandbox.write("square.toml", &format!("{square}{across}"));
+    let said = sandbox.refused(2, &["bands", "square.toml"]);
+    assert!(said.stderr.contains("F̄_xy"), "{}", said.stderr);
+}

@@ -1,0 +1,46 @@
+//! What can be wrong with a lattice, each at its exact place (`§`), with the fix.
+
+use crate::common::{TIME, assert_error};
+
+const POINT: &str = "[[body]]\nname = \"a\"\nshape = { points = [{ mass = 1, at = [0, 0, 0] }] }\n";
+const WEIGHTLESS: &str = "[world]\ngravity = [0, 0, 0]\n";
+const CHAIN: &str = "[lattice]\ncell = [[1, 0, 0]]\n";
+
+#[test]
+fn errors_of_a_lattice_stand_at_their_place() {
+    let spring = |ends: &str| format!("[[spring]]\nbetween = [\"a\", \"a\"]\nstiffness = 1\n{ends}\n");
+    let rows = [
+        ("[lattice]\ncell = §[[1, 0, 0], [2, 0, 0]]".to_owned(), "lattice.cell", "depend on one another", "span"),
+        ("[lattice]\ncell = §[[0, 0, 0]]".to_owned(), "lattice.cell", "depend on one another", "span"),
+        (format!("{CHAIN}periodic = §[true, false]"), "lattice.periodic", "2 entries for 1 cell vectors", "write true"),
+        (format!("{CHAIN}repeat = [4, §2, 1]"), "lattice.repeat.1", "no cell vector 2", "write 1"),
+        (format!("{CHAIN}§period = true"), "lattice.period", "unknown key", "`periodic`"),
+        (format!("{CHAIN}{}", spring("cell = [1, §1, 0]")), "spring.0.cell.1", "has 1 cell vectors", "write 0"),
+        (format!("{CHAIN}pressure = §1"), "lattice.pressure", "stay as they are written", "relax"),
+        (
+            format!("{CHAIN}relax = [\"cell\"]\nstress = §[[0, 1, 0], [0, 0, 0], [0, 0, 0]]"),
+            "lattice.stress",
+            "not symmetric",
+            "across the diagonal",
+        ),
+        (spring("cell = §[1, 0, 0]"), "spring.0.cell", "no `[lattice]`", "add a lattice"),
+    ];
+    for (lines, key, message, help) in rows {
+        assert_error(&format!("{TIME}{WEIGHTLESS}{POINT}{lines}\n"), key, message, help);
+    }
+}
+
+#[test]
+fn a_spring_of_a_body_with_itself_needs_another_cell() {
+    let spring = "[[spring]]\nbetween = [\"a\", §\"a\"]\nstiffness = 1\n";
+    let key = "spring.0.between.1";
+    assert_error(&format!("{TIME}{WEIGHTLESS}{POINT}{CHAIN}{spring}"), key, "both ends are at the body", "");
+    let here = format!("{spring}cell = [0, 0, 0]\n");
+    assert_error(&format!("{TIME}{WEIGHTLESS}{POINT}{CHAIN}{here}"), key, "both ends are at the body", "");
+}
+
+#[test]
+fn gravity_needs_something_that_holds_a_lattice() {
+    let text = format!("{TIME}[world]\ngravity = §[0, 0, -9.81]\n{POINT}{CHAIN}");
+    assert_error(&text, "world.gravity", "nothing holds them", "gravity = [0, 0, 0]");
+}
