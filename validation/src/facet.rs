@@ -66,7 +66,7 @@ impl FacetBody {
         };
         let plane =
             Support { name: "plane".into(), origin: Vec3::zeros(), normal: Vec3::z(), motion: SupportMotion::Fixed };
-        let model = Model::new(Vec3::new(0.0, 0.0, -self.gravity), vec![plane], vec![body]);
+        let model = Model::new(Vec3::new(0.0, 0.0, -self.gravity), vec![plane], vec![body]).named(["facet"]);
         let model =
             model.with_contacts(vec![Contact::new(0, 0, LawSet::new(AreaMeasure::default(), self.laws.clone()))]);
         let start = RigidStart {
@@ -91,7 +91,7 @@ impl FacetBody {
             let affine = Affine::from(interior.unwrap_or_else(|error| panic!("{error}")));
             Body { kind: BodyKind::Affine(Box::new(affine)), ..(*body).clone() }
         });
-        let model = Model::new(model.gravity, model.supports, bodies);
+        let model = Model::new(model.gravity, model.supports, bodies).named(["facet"]);
         let model = model.with_contacts(vec![Contact::new(0, 0, LawSet::new(measure, self.laws.clone()))]);
         let start = State::start(&model, &[Start::Affine(motion.placement, motion.velocity)]);
         Experiment::of_model(model, start, tolerance)

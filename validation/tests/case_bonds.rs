@@ -1,5 +1,5 @@
-//! Bonds and contacts across the cells of a lattice: bands, and modes of bodies that press on one another, q = k·a,
-//! s = sin(q/2), c = cos(q/2).
+//! Bonds and contacts across the cells of a lattice: bands, and modes of bodies that press on one another, q = k·a, s =
+//! sin(q/2), c = cos(q/2).
 //!
 //!   V(l) at the spacing a           along 2√(V″/m) s, across 2√(V′/(ma)) s
 //!   rigid, S = diag(k_n, k_s, k_s, k_t, k_b, k_b), half way

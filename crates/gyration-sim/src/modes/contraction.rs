@@ -6,31 +6,10 @@
 //! follows det P (then the second term stands), less the turns where V_G is symmetric.
 
 use super::coordinates::Coordinates;
-use super::frozen::FrozenSystem;
-use super::system::SystemCoordinates;
-use gyration::Inadmissible;
 use gyration::body::{Body, Slots, matrix};
 use gyration::contractile::Spin;
 use gyration::tensor::{Mat3, Vec3};
-use gyration_threads::Interruption;
 use nalgebra::{DMatrix, DVector};
-
-/// Newton's steps to a state in which the contraction stands still, at most.
-const MOST: usize = 60;
-/// The most that a step may strain body or relaxed shape.
-const LARGEST_STRAIN: f64 = 0.2;
-/// Halvings of a step that leaves the model, at most.
-const HALVINGS: usize = 40;
-/// Singular values below this part of the largest are those of directions that nothing feels.
-const NEUTRAL: f64 = 1e-10;
-/// Singular values below this part of the largest are those of weak directions.
-const WEAK: f64 = 1e-4;
-/// Along weak directions, forces below this part of the largest of the search are rounding, which chooses no way.
-const NO_FORCE: f64 = 1e-9;
-/// Steps smaller than this are the last, once they no longer halve.
-const SMALL: f64 = 1e-8;
-/// A contraction stands still if it would take this strain to stop it.
-const STILL: f64 = 1e-8;
 
 /// The coordinates γ at a configuration.
 #[derive(Debug, Clone)]
@@ -116,90 +95,6 @@ impl ContractionCoordinates {
         let at = block.len() - 9;
         block[at..].iter_mut().zip(change.iter()).for_each(|(number, change)| *number += change);
     }
-}
-
-/// The state next to some numbers in which bodies and contractions stand still.
-///
-///   K z − B γ = r,   −D z − H γ = V_G
-///
-/// by Newton's method; directions that nothing feels are left alone. None where a contraction goes on, or nobody waits
-/// any longer.
-pub(super) fn settled(frozen: &mut FrozenSystem, start: Vec<f64>) -> Result<Option<Vec<f64>>, Inadmissible> {
-    let (mut numbers, mut last, mut largest) = (start, f64::INFINITY, 0.0);
-    for _ in (0..MOST).take_while(|_| Interruption::due().is_none()) {
-        let coordinates = SystemCoordinates::at(frozen, &numbers);
-        let rates = frozen.rates(&numbers)?;
-        let force = coordinates.force(&rates);
-        let speeds = coordinates.contraction_velocities(frozen, &numbers, &rates);
-        let velocity = coordinates.along(&speeds);
-        let (stiffness, first) = coordinates.first_order(&speeds, &frozen.slopes(&numbers)?);
-        let (size, own) = (force.len(), velocity.len());
-        let mut system = DMatrix::zeros(size + own, size + own);
-        system.view_mut((0, 0), (size, size)).copy_from(&stiffness);
-        system.view_mut((0, size), (size, own)).copy_from(&-first.forces);
-        system.view_mut((size, 0), (own, size)).copy_from(&-first.by_place);
-        system.view_mut((size, size), (own, own)).copy_from(&-&first.own);
-        let right = DVector::from_iterator(size + own, force.iter().chain(velocity.iter()).copied());
-        let Some(step) = least_squares(system, right, size, &mut largest) else { return Ok(None) };
-        let (mut z, mut strains) = (step.rows(0, size).into_owned(), step.rows(size, own).into_owned());
-        let gaps = frozen.gaps(&numbers);
-        let shapes = coordinates.shapes(frozen, &z);
-        let strain = shapes.iter().enumerate().map(|(body, shape)| {
-            let length = gaps[body].iter().copied().fold(frozen.bodies()[body].size, f64::min);
-            (shape.translation.norm() / length).max((shape.gradient * frozen.inverse(&numbers, body)).norm())
-        });
-        let strain = strain.fold(0.0, f64::max).max(strains.norm());
-        if strain == 0.0 || (strain <= SMALL && strain > 0.5 * last) {
-            let stands = velocity.norm() <= STILL * first.own.norm().max(first.by_rate.norm());
-            return Ok(stands.then_some(numbers));
-        }
-        if !strain.is_finite() {
-            return Ok(None);
-        }
-        last = strain;
-        let cut = (LARGEST_STRAIN / strain).min(1.0);
-        (z, strains) = (z * cut, strains * cut);
-        let mut part = 1.0;
-        let ahead = (0..HALVINGS).find_map(|_| {
-            let mut ahead = numbers.clone();
-            coordinates.advance(&mut ahead, &(part * &z), &(part * &strains));
-            frozen.project(&mut ahead);
-            part *= 0.5;
-            frozen.rates(&ahead).is_ok().then_some(ahead)
-        });
-        let Some(ahead) = ahead else { return Ok(None) };
-        numbers = ahead;
-    }
-    Ok(None)
-}
-
-/// The shortest solution of A x = b, the first `size` equations and unknowns those of the body, in units in which body
-/// and contraction act on each other as strongly; `most` is the largest |b| of the search.
-fn least_squares(
-    mut matrix: DMatrix<f64>,
-    mut right: DVector<f64>,
-    size: usize,
-    most: &mut f64,
-) -> Option<DVector<f64>> {
-    let own = right.len() - size;
-    let ratio = |one: f64, other: f64| if one > 0.0 && other > 0.0 { one / other } else { 1.0 };
-    let stiffness = matrix.view((0, 0), (size, size)).norm();
-    let unit = ratio(stiffness, matrix.view((0, size), (size, own)).norm());
-    matrix.columns_mut(size, own).scale_mut(unit);
-    let weight = ratio(stiffness, matrix.rows(size, own).norm());
-    matrix.rows_mut(size, own).scale_mut(weight);
-    right.rows_mut(size, own).scale_mut(weight);
-    let svd = matrix.try_svd(true, true, f64::EPSILON, 10_000)?;
-    *most = right.norm().max(*most);
-    let stiffest = svd.singular_values.max();
-    let along = svd.u.as_ref()?.tr_mul(&right);
-    let parts = along.zip_map(&svd.singular_values, |along, value| {
-        let is_felt = value > WEAK * stiffest || (value > NEUTRAL * stiffest && along.abs() > NO_FORCE * *most);
-        if is_felt { along / value } else { 0.0 }
-    });
-    let mut solved = svd.v_t.as_ref()?.tr_mul(&parts);
-    solved.rows_mut(size, own).scale_mut(unit);
-    Some(solved)
 }
 
 /// Orthonormal symmetric matrices without trace, in the order of the patterns of the body.

@@ -22,6 +22,7 @@ mod coordinates;
 mod equilibrium;
 mod frozen;
 mod participation;
+mod settling;
 mod shape;
 mod slopes;
 mod spectrum;
@@ -31,7 +32,6 @@ mod words;
 pub use participation::{PARTS, Participation};
 pub use shape::ModeShape;
 
-use contraction::settled;
 use frozen::{FrozenContraction, FrozenSystem};
 use gyration::Inadmissible;
 use gyration::body::matrix;
@@ -41,6 +41,7 @@ use gyration::state::State;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_threads::Interruption;
 use nalgebra::{Complex, ComplexField};
+use settling::settled;
 
 use spectrum::{EigenMotion, FirstOrder};
 use system::SystemCoordinates;

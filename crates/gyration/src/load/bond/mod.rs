@@ -5,7 +5,7 @@
 //!
 //! These invariants are products of seven vectors, Δ and the columns of P_i and P_j, and all that a turn and a shift of
 //! space leave alone: whatever V is, momentum and angular momentum hold. `gram` has V of such products and its
-//! derivatives, `stiffness` the potential of a 6×6 matrix, `dashpot` the resistance. Source: `docs/theory-pairs.md`.
+//! derivatives, `stiffness` the potential of a 6×6 matrix, `dashpot` the resistance. Source: `docs/theory-lattices.md`.
 
 mod dashpot;
 mod gram;
