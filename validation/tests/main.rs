@@ -22,6 +22,7 @@ mod case_small_gaps;
 mod case_soft_audits;
 mod case_soft_tumbling_box;
 mod case_tumbling_box;
+mod case_waves;
 mod gallery_adhere;
 mod gallery_basset;
 mod gallery_bounce;

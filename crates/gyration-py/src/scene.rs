@@ -247,7 +247,7 @@ impl Scene {
 
 /// A scene ready to run; without the lock, since boundary elements may take a while.
 fn completed(py: Python<'_>, scene: Arc<Inner>) -> PyResult<Arc<Inner>> {
-    if scene.unknown_forms().is_empty() {
+    if scene.is_complete() {
         return Ok(scene);
     }
     let found = interruptibly(py, || gyration_sim::complete((*scene).clone()))?;

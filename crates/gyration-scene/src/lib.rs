@@ -33,7 +33,7 @@ mod tree;
 pub mod units;
 mod unknown;
 
-pub use assemble::{Built, CellLoad, Plan, Record, StopAtRest, TRIANGLES, UnitCell};
+pub use assemble::{Built, CellLoad, Packet, Plan, Record, StartingWave, StopAtRest, TRIANGLES, UnitCell, WaveStart};
 pub use error::{ErrorKind, LoadError, NotToml, ReadError, SceneError, SceneErrors};
 pub use file::{Method, Recorded};
 pub use gallery::{NotInGallery, gallery, gallery_scene};
@@ -41,4 +41,4 @@ pub use overriding::{Override, OverrideValue};
 pub use scene::Scene;
 pub use schema::{schema, schema_of};
 pub use template::{Template, unit_of};
-pub use unknown::{NoForm, UnknownForm};
+pub use unknown::{NoForm, NoWave, UnknownForm};

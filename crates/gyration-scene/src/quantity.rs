@@ -86,6 +86,8 @@ quantities! {
     SurfaceDamping "Pa s/m" "2 Pa s/m";
     /// Dynamic viscosity \[Pa s\].
     Viscosity "Pa s" "20 mPa s";
+    /// Energy \[J\].
+    Energy "J" "1 nJ";
     /// Torque, affine moment \[N m\].
     Torque "N m" "3 mN m";
     /// Stiffness of a spring \[N/m\].

@@ -1,15 +1,17 @@
 //! A scene: read → check → build, all errors at once.
 
-use crate::assemble::Built;
+use crate::assemble::{Built, WaveStart};
 use crate::document::Diagnostics;
 use crate::error::{ErrorKind, NotToml, SceneErrors};
-use crate::file::SceneFile;
+use crate::file::{LatticeWave, OneOrMany, SceneFile};
 use crate::key::Key;
 use crate::overriding::Override;
 use crate::units::without_rounding;
-use crate::unknown::{FIX, GIVEN_UP, NoForm, PATIENCE, Unknown, UnknownForm};
+use crate::unknown::{FIX, GIVEN_UP, NoForm, NoWave, PATIENCE, Unknown, UnknownForm};
 use gyration::body::Body;
 use gyration::fluid::Form;
+use gyration::model::Model;
+use gyration::state::State;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -91,13 +93,20 @@ impl Scene {
         self.unknown.as_ref().map_or(&[], |unknown| &unknown.forms)
     }
 
-    /// The scene with the forms that are asked for here, each of a body of the model.
+    /// Whether it can run: all forms are known, and it starts with the waves that it asks for.
+    pub fn is_complete(&self) -> bool {
+        self.unknown.is_none()
+    }
+
+    /// The scene with the forms that are asked for here, each of a body of the model, and with its waves, which are
+    /// asked for at last.
     ///
     /// # Errors
-    /// Why a surface has no resistance, at the key of its shape.
+    /// Why a surface has no resistance, at the key of its shape; why a wave is none, at its key.
     pub fn complete(
         mut self,
         mut form: impl FnMut(&Body, &UnknownForm) -> Result<Form, NoForm>,
+        start: impl FnOnce(&Model, &WaveStart) -> Result<State, NoWave>,
     ) -> Result<Self, SceneErrors> {
         let Some(Unknown { forms, document }) = self.unknown.take().map(|unknown| *unknown) else { return Ok(self) };
         let mut diagnostics = Diagnostics::of(ErrorKind::Value);
@@ -121,7 +130,28 @@ impl Scene {
                 }
             }
         }
+        if let Some(waves) = self.built.waves.take().filter(|_| diagnostics.is_empty()) {
+            match start(&self.built.model, &waves) {
+                Ok(state) => self.built.state = state,
+                Err(NoWave { wave, key: word, problem, help, is_interrupted }) => {
+                    let mut key = Key::root().key("lattice").key("wave");
+                    if let (Some(index), Some(OneOrMany::Many(_))) = (wave, self.written_waves()) {
+                        key = key.index(index);
+                    }
+                    let key = word.map_or(key.clone(), |word| key.key(word));
+                    if is_interrupted {
+                        diagnostics.look_at(ErrorKind::Interrupted);
+                    }
+                    diagnostics.at(key.span(&document.root), &key, problem, help);
+                }
+            }
+        }
         if diagnostics.is_empty() { Ok(self) } else { Err(document.errors(diagnostics)) }
+    }
+
+    /// The waves as the file has them.
+    fn written_waves(&self) -> Option<&OneOrMany<LatticeWave>> {
+        self.file.lattice.as_ref()?.wave.as_ref()
     }
 }
 

@@ -102,7 +102,8 @@ impl Template {
         match (partial.complete(), built) {
             (Some(file), Some((built, forms))) if diagnostics.is_empty() => {
                 let (name, text, base) = (self.stem.clone(), self.text().to_owned(), self.base.clone());
-                let unknown = (!forms.is_empty()).then(|| Box::new(Unknown { forms, document: document.into_owned() }));
+                let unknown = (!forms.is_empty() || built.waves.is_some())
+                    .then(|| Box::new(Unknown { forms, document: document.into_owned() }));
                 Ok(Scene { name, text, base, overrides: overrides.to_vec(), file, built, unknown })
             }
             _ => Err(document.errors(diagnostics)),

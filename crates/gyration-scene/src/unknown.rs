@@ -1,4 +1,4 @@
-//! What a scene leaves open: the resistances that only boundary elements tell.
+//! What a scene leaves open: the resistances that only boundary elements tell, and the waves with which it starts.
 //!
 //! To read and to check a scene takes none of them. Where one belongs the model has NaN, with which nothing runs, until
 //! `Scene::complete` is given the form. What is wrong with a surface is then noted at its key, as any other error.
@@ -41,6 +41,21 @@ pub enum NoForm {
     Surface(String),
     /// It was given up before it was known.
     Interrupted,
+}
+
+/// Why a run cannot start with a wave.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NoWave {
+    /// Which of the waves it is, if it is one.
+    pub wave: Option<usize>,
+    /// The key of the wave at which it is wrong.
+    pub key: Option<&'static str>,
+    /// What is wrong.
+    pub problem: String,
+    /// What to do.
+    pub help: &'static str,
+    /// Whether it was given up before it was known.
+    pub is_interrupted: bool,
 }
 
 /// The resistance of a form that is not known.

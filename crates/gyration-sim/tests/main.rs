@@ -28,3 +28,4 @@ mod short_range;
 mod stepping;
 mod surfaces;
 mod touching;
+mod waves;

@@ -19,8 +19,11 @@ const MOST_PAIRS: usize = 1000;
 /// Prints what can be said of the scene.
 pub fn execute(arguments: &Check) -> Result<u8, CliError> {
     let name = &arguments.scene.scene;
-    // Steps need the resistances that only a run needs.
-    let opened = || if arguments.steps.is_some() { ready(&arguments.scene) } else { open(&arguments.scene) };
+    // Steps need the resistances that only a run needs; waves make another start.
+    let opened = || match open(&arguments.scene)? {
+        scene if arguments.steps.is_none() && scene.built().waves.is_none() => Ok(scene),
+        _ => ready(&arguments.scene),
+    };
     let scene = waiting(format!("opening {name}"), true, opened)?;
     let job = Job::of(&scene, &provenance());
     begins(&scene, &job)?;

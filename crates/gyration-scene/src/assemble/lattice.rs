@@ -114,6 +114,22 @@ impl Cells {
         Self { repeat, ..self.clone() }
     }
 
+    /// Those of which the waves of a start are: one along directions in which the lattice has no ends.
+    pub fn endless(&self, endless: [bool; 3]) -> Self {
+        let repeat = std::array::from_fn(|a| if endless[a] { 1 } else { self.repeat[a] });
+        Self { repeat, periodic: endless, ..self.clone() }
+    }
+
+    /// How many there are along each vector.
+    pub fn repeat(&self) -> [u32; 3] {
+        self.repeat
+    }
+
+    /// Whether the last is beside the first.
+    pub fn ring(&self) -> [bool; 3] {
+        self.periodic
+    }
+
     /// The directions that are periodic.
     pub fn periodic(&self) -> Vec<bool> {
         self.periodic[..self.lattice.vectors().len()].to_vec()

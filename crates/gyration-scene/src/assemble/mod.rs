@@ -29,10 +29,12 @@ mod solids;
 mod spring;
 mod start;
 mod support;
+mod wave;
 
 pub(crate) use context::SceneContext;
 pub use fluid::TRIANGLES;
 pub(crate) use salvage::salvage;
+pub use wave::{Packet, StartingWave, WaveStart};
 
 use crate::check::{PartialScene, Reporter};
 use crate::file::{self, Method, Recorded, Solver, Time};
@@ -58,6 +60,7 @@ use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::time::Duration;
+use wave::WrittenWaves;
 
 /// A scene ready to run.
 #[derive(Debug, Clone)]
@@ -72,6 +75,8 @@ pub struct Built {
     pub record: Record,
     /// What bands are of, where there is a lattice.
     pub cell: Option<UnitCell>,
+    /// The waves with which it starts, until the scene is completed.
+    pub waves: Option<WaveStart>,
 }
 
 /// The cell of a lattice of which bands are: one cell along what is periodic, all beside it.
@@ -192,11 +197,13 @@ pub(crate) fn assemble(
         }
     }
     give_sizes(&mut assembled, (&springs, &bonds), of_cell);
+    let mut waves = None;
     if let Some(cells) = of_cell {
         let supports: Vec<_> = supports.iter().flatten().cloned().collect();
         let fluid = around.as_ref().and_then(Option::as_ref);
         cells.check_alike(&supports, &contacts, fluid, reporter);
         let bodies: Vec<AssembledBody> = assembled.iter().flatten().cloned().collect();
+        waves = partial.lattice.as_ref().and_then(|written| wave::waves(written, cells, reporter));
         lattice::check_held(&si(&partial.world.gravity), &contacts, &bodies, reporter);
         // Of a cell with an error the indices of bodies do not hold.
         if bodies.len() == assembled.len() {
@@ -222,12 +229,18 @@ pub(crate) fn assemble(
         origins: Vec::new(),
     };
     let cells = cells.map(|cells| cells.ok_or(())).transpose().ok()?;
-    let unit = cells.as_ref().map(|cells| {
-        let unit = cells.unit();
-        let (model, state) = parts.clone().repeated(&unit, &rule_keys, reporter).built()?;
-        Some(UnitCell { model, state, periodic: cells.periodic(), relaxes: cells.relaxes, load: cells.load })
-    });
-    let cell = unit.map(|unit| unit.ok_or(())).transpose().ok()?;
+    let mut unit = |unit: &Cells| {
+        let (model, state) = parts.clone().repeated(unit, &rule_keys, reporter).built()?;
+        Some(UnitCell { model, state, periodic: unit.periodic(), relaxes: unit.relaxes, load: unit.load })
+    };
+    let cell = cells.as_ref().map(|cells| unit(&cells.unit()).ok_or(())).transpose().ok()?;
+    let waves = match (&cells, waves) {
+        (Some(cells), Some(WrittenWaves { waves, endless })) => {
+            let own = cells.endless(endless);
+            Some(WaveStart { cell: unit(&own)?, unit: own.repeat(), repeat: cells.repeat(), ring: cells.ring(), waves })
+        }
+        _ => None,
+    };
     let (model, state) = match &cells {
         None => parts.built()?,
         Some(cells) => parts.repeated(cells, &rule_keys, reporter).built()?,
@@ -237,7 +250,7 @@ pub(crate) fn assemble(
     let written = partial.bodies.iter().flat_map(|written| std::iter::repeat_n(written, copies));
     let forms = written.zip(&model.bodies).enumerate();
     let forms = forms.filter_map(|(index, (written, body))| fluid::unknown(&written.value, body, index)).collect();
-    Some((Built { model, state, plan, record, cell }, forms))
+    Some((Built { model, state, plan, record, cell, waves }, forms))
 }
 
 /// Gives mass points a size, by which tolerances are judged: the length of their shortest spring or bond, else of the

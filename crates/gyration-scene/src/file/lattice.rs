@@ -1,7 +1,7 @@
 //! `[lattice]`: the bodies of the scene are what one cell holds.
 
 use super::contractile::OneOrMany;
-use crate::quantity::Length;
+use crate::quantity::{Energy, Length, Positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +27,54 @@ pub struct Lattice {
     /// The pressure under which it rests instead.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressure: Option<f64>,
+    /// Waves with which a run starts, one or several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wave: Option<OneOrMany<LatticeWave>>,
 }
+
+/// A wave, a packet of waves, or all waves at random phases.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LatticeWave {
+    /// κ: k = Σ κ_a b_a.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kappa: Option<[f64; 3]>,
+    /// Which branch, from 0, ascending.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub branch: Option<BranchNumber>,
+    /// How far the fastest coordinate goes (m); strains and turns count times the size of the body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub amplitude: Option<Positive<Length>>,
+    /// The middle of a packet, in cells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<[f64; 3]>,
+    /// The width of a packet, in cells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width: Option<Positive<f64>>,
+    /// Every wave of the cells, instead of one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub random: Option<RandomWaves>,
+}
+
+/// Every wave with the same energy and a phase of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RandomWaves {
+    /// The energy of each (J).
+    pub energy: Positive<Energy>,
+    /// The seed of the phases.
+    pub seed: Seed,
+}
+
+/// The number of a branch.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct BranchNumber(#[schemars(with = "u32", range(min = 0, max = 1_000_000))] pub f64);
+
+/// The seed of random numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct Seed(#[schemars(with = "u64", range(min = 0, max = 9_007_199_254_740_991_u64))] pub f64);
 
 /// A number of cells.
 // Numbers of a scene are read as reals; the structure is checked to hold a whole one.

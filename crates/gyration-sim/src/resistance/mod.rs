@@ -14,6 +14,7 @@ pub use bodies::{
 pub use deforming::DeformingSurface;
 pub use elements::{BoundaryElements, BoundaryResistance, NoResistance, Wall, boundary_resistance};
 
+use crate::waves;
 use gyration::body::Body;
 use gyration::fluid::{FixedForm, Form, SurfaceForm};
 use gyration::model::Model;
@@ -35,12 +36,12 @@ pub fn open(path_or_name: &str, overrides: &[String]) -> Result<Scene, LoadError
     Ok(Interruption::in_force().after(scene.built().plan.wall_time()).within(|| complete(scene))?)
 }
 
-/// The scene with the resistances that boundary elements tell: ready to run.
+/// The scene with the resistances that boundary elements tell, and with its waves: ready to run.
 ///
 /// # Errors
-/// Why a surface has no resistance, at the key of its shape.
+/// Why a surface has no resistance, at the key of its shape; why it has no such wave.
 pub fn complete(scene: Scene) -> Result<Scene, SceneErrors> {
-    scene.complete(|body, asked| form(body, asked).map_err(NoForm::from))
+    scene.complete(|body, asked| form(body, asked).map_err(NoForm::from), waves::start)
 }
 
 /// The same of a scene that is somebody else's.
@@ -48,7 +49,7 @@ pub fn complete(scene: Scene) -> Result<Scene, SceneErrors> {
 /// # Errors
 /// As of [`complete`].
 pub fn completed(scene: &Scene) -> Result<Cow<'_, Scene>, SceneErrors> {
-    if scene.unknown_forms().is_empty() {
+    if scene.is_complete() {
         return Ok(Cow::Borrowed(scene));
     }
     complete(scene.clone()).map(Cow::Owned)

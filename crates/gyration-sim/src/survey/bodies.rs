@@ -184,7 +184,7 @@ impl Survey {
 
     fn whole(scene: &Scene) -> Result<Self, SceneErrors> {
         let deforms = scene.unknown_forms().iter().any(|form| form.resolution.is_some());
-        let scene = if deforms { completed(scene)? } else { Cow::Borrowed(scene) };
+        let scene = if deforms || scene.built().waves.is_some() { completed(scene)? } else { Cow::Borrowed(scene) };
         let (model, start) = (&scene.built().model, &scene.built().state);
         let bodies = (0..model.bodies.len()).map(|index| survey_body(model, start, index)).collect();
         Ok(Self {

@@ -178,6 +178,20 @@ impl LatticeWaves {
         self.lattice.reciprocal().iter().zip(kappa).map(|(vector, kappa)| *kappa * vector).sum()
     }
 
+    /// Whether a contraction moves, so that waves have states of first order.
+    pub fn contracts(&self) -> bool {
+        self.coordinates.contracts()
+    }
+
+    /// The waves at κ with their shapes.
+    ///
+    /// # Errors
+    /// [`NoBands`].
+    pub fn branches(&self, kappa: [f64; 3]) -> Result<Vec<Branch>, NoBands> {
+        let point = PathPoint { kappa, along: [0.0; 3], label: None, is_vertex: false, begins: false };
+        Ok(self.row(&point, true)?.branches)
+    }
+
     /// The shapes of a wave.
     fn shapes(&self, wave: &DVector<C64>) -> Vec<BandShape> {
         let [real, imaginary] =
