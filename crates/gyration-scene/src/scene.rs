@@ -12,6 +12,7 @@ use gyration::body::Body;
 use gyration::fluid::Form;
 use gyration::model::Model;
 use gyration::state::State;
+use gyration::tensor::Vec3;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -99,14 +100,14 @@ impl Scene {
     }
 
     /// The scene with the forms that are asked for here, each of a body of the model, and with its waves, which are
-    /// asked for at last.
+    /// asked for at last: the first state, and where each body rests.
     ///
     /// # Errors
     /// Why a surface has no resistance, at the key of its shape; why a wave is none, at its key.
     pub fn complete(
         mut self,
         mut form: impl FnMut(&Body, &UnknownForm) -> Result<Form, NoForm>,
-        start: impl FnOnce(&Model, &WaveStart) -> Result<State, NoWave>,
+        start: impl FnOnce(&Model, &WaveStart) -> Result<(State, Vec<Vec3>), NoWave>,
     ) -> Result<Self, SceneErrors> {
         let Some(Unknown { forms, document }) = self.unknown.take().map(|unknown| *unknown) else { return Ok(self) };
         let mut diagnostics = Diagnostics::of(ErrorKind::Value);
@@ -132,7 +133,10 @@ impl Scene {
         }
         if let Some(waves) = self.built.waves.take().filter(|_| diagnostics.is_empty()) {
             match start(&self.built.model, &waves) {
-                Ok(state) => self.built.state = state,
+                Ok((state, places)) => {
+                    self.built.state = state;
+                    self.built.model = self.built.model.resting_at(places);
+                }
                 Err(NoWave { wave, key: word, problem, help, is_interrupted }) => {
                     let mut key = Key::root().key("lattice").key("wave");
                     if let (Some(index), Some(OneOrMany::Many(_))) = (wave, self.written_waves()) {

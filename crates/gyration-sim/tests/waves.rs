@@ -1,9 +1,11 @@
 //! Scenes that start with waves: what cannot be one is refused at its key, and what starts is the same once more.
 
 use crate::islands::parsed;
+use gyration::dynamics::Workspace;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::Scene;
-use gyration_sim::complete;
+use gyration_sim::rows::{Fields, RowScratch};
+use gyration_sim::{RunPlan, complete};
 use std::path::Path;
 
 /// Two cells along y of a rigid and an affine box, joined along x.
@@ -112,4 +114,26 @@ fn a_scene_is_complete_once_its_waves_are_there() {
     assert_eq!(one.built().state, complete(scene).unwrap().built().state);
     let again = complete(Scene::parse("scene.json", &one.resolved().to_string(), Path::new(""), &[]).unwrap()).unwrap();
     assert_eq!(again.built().state, one.built().state);
+}
+
+#[test]
+fn displacements_are_recorded_from_the_rest() {
+    let lattice = "wave = { kappa = [0.125, 0, 0], branch = 10, amplitude = 1e-4 }";
+    let scene = parsed(&(ring(lattice) + "[record]\nquantities = [\"displacement\"]\n"), &[]);
+    let scene = complete(scene).unwrap();
+    let built = scene.built();
+    let plan = RunPlan::from(built);
+    let fields = Fields::new(&built.model, &plan.extras);
+    let before = fields.arrays(&built.model).0.iter().position(|array| array.name == "displacement").unwrap();
+    let mut scratch = RowScratch::default();
+    fields.fill(&built.model, &mut Workspace::default(), &built.state, None, &mut scratch).unwrap();
+    let rest = |body| built.model.rest_place(body).unwrap();
+    let expected = (0..16).flat_map(|body| {
+        let place = built.state.motion(&built.model, body).placement.position - rest(body);
+        [place.x, place.y, place.z]
+    });
+    let expected: Vec<f64> = expected.collect();
+    assert!(before > 0 && scratch.row.windows(48).any(|window| window == expected), "{expected:?}");
+    // All cells have the same rest, each in its own place.
+    assert!((0..8).all(|cell| rest(cell) == rest(0) && rest(8 + cell).x == 0.5), "{:?}", rest(0));
 }

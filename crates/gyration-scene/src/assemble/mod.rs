@@ -329,6 +329,7 @@ impl Parts {
         };
         let model = model.asking(|| Interruption::due().is_some());
         let state = State::start(&model, &starts);
-        Some((model, state))
+        let places: Vec<Vec3> = (0..starts.len()).map(|body| state.motion(&model, body).placement.position).collect();
+        Some((model.resting_at(places), state))
     }
 }

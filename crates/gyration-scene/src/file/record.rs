@@ -44,4 +44,6 @@ pub enum Recorded {
     TangentialForce,
     /// The force of all other bodies that it meets (N).
     PairForce,
+    /// p₀ less that of the scene at rest (m).
+    Displacement,
 }

@@ -1,8 +1,11 @@
 //! Quantities that are recorded on request.
 
-use super::fields::{BodyField, EXTRA_FIELDS, OF_CONTACTS};
+use super::fields::{BodyField, EXTRA_FIELDS, OF_CONTACTS, OF_PLACES};
 use gyration::tensor::Vec3;
 use gyration_scene::Recorded;
+
+/// How many of the fields are of homogeneous strain.
+const OF_STRAIN: usize = EXTRA_FIELDS.len() - OF_CONTACTS - OF_PLACES;
 
 /// A set of quantities recorded on request; the words of the scene stand in the order of the fields.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -31,12 +34,17 @@ impl Extras {
 
     /// Whether what is asked for needs the observation of homogeneous strain.
     pub(super) fn are_homogeneous(&self) -> bool {
-        self.asked[..EXTRA_FIELDS.len() - OF_CONTACTS].contains(&true)
+        self.asked[..OF_STRAIN].contains(&true)
     }
 
     /// Whether what is asked for needs the contact force by its parts.
     pub(super) fn are_of_contacts(&self) -> bool {
-        self.asked[EXTRA_FIELDS.len() - OF_CONTACTS..].contains(&true)
+        self.asked[OF_STRAIN..OF_STRAIN + OF_CONTACTS].contains(&true)
+    }
+
+    /// Whether displacements are asked for.
+    pub(super) fn are_of_places(&self) -> bool {
+        self.asked[OF_STRAIN + OF_CONTACTS..].contains(&true)
     }
 
     pub(super) fn fields(&self) -> impl Iterator<Item = &'static BodyField> + use<> {

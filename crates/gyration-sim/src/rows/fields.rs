@@ -34,6 +34,8 @@ pub(super) struct BodyContext<'a> {
     pub homogeneous: Option<&'a HomogeneousObservation>,
     /// Where they were asked for.
     pub contacts: Option<&'a ContactParts>,
+    /// Where it was asked for, and a rest is known.
+    pub displacement: Option<Vec3>,
     /// If it is immersed in a fluid.
     pub immersed: Option<&'a ImmersionObservation>,
 }
@@ -180,7 +182,7 @@ macro_rules! extra {
 
 /// The fields that are recorded on request, in the order of `gyration_scene::Recorded`.
 #[rustfmt::skip]
-pub(super) static EXTRA_FIELDS: [BodyField; 13] = [
+pub(super) static EXTRA_FIELDS: [BodyField; 14] = [
     extra!(homogeneous, "velocity_gradient", "1/s", "velocity gradient L = Pdot P^-1", Matrix, velocity_gradient, NO_MATRIX),
     extra!(homogeneous, "affine_momentum_total", "kg m2/s", "affine momentum about the origin asked for", Matrix, total_affine_momentum, NO_MATRIX),
     extra!(homogeneous, "affine_moment", "N m", "affine moment of forces N = P M^T", Matrix, affine_moment, NO_MATRIX),
@@ -194,10 +196,19 @@ pub(super) static EXTRA_FIELDS: [BodyField; 13] = [
     extra!(contacts, "normal_force", "N", "contact forces along their normals, summed", Scalar, normal, f64::NAN),
     extra!(contacts, "tangential_force", "N", "contact forces across normals, summed", Scalar, tangential, f64::NAN),
     extra!(contacts, "pair_force", "N", "force of all other bodies that it meets", Vector, of_bodies, NO_VECTOR),
+    BodyField {
+        name: "displacement",
+        units: "m",
+        description: "position of the centre of mass less that at rest",
+        rank: Rank::Vector,
+        suffixes: &[],
+        value: |context| FieldValue::Vector(context.displacement.unwrap_or(NO_VECTOR)),
+    },
 ];
 
-/// How many of them, the last, are of contacts; those before are of homogeneous strain.
+/// How many of them, at the end, are of contacts and then of places; those before are of homogeneous strain.
 pub(super) const OF_CONTACTS: usize = 3;
+pub(super) const OF_PLACES: usize = 1;
 
 /// A field of bodies in a fluid: NaN for any other.
 macro_rules! immersed {

@@ -31,6 +31,8 @@ pub struct Fields {
     origin: Option<Vec3>,
     /// Whether contact forces are asked for by their parts.
     by_parts: bool,
+    /// Whether displacements are asked for.
+    displacements: bool,
     /// Whether a body is immersed in a fluid.
     immersed: bool,
 }
@@ -55,7 +57,8 @@ impl Fields {
         let in_fluid = IMMERSED_FIELDS.iter().filter(|_| immersed);
         let fields = usual.chain(in_fluid).chain(extras.fields()).collect();
         let origin = extras.are_homogeneous().then_some(extras.origin);
-        Self { fields, origin, by_parts: extras.are_of_contacts(), immersed }
+        let (by_parts, displacements) = (extras.are_of_contacts(), extras.are_of_places());
+        Self { fields, origin, by_parts, displacements, immersed }
     }
 
     /// The arrays of a recording of this model, and the order of its CSV columns.
@@ -107,12 +110,15 @@ impl Fields {
                 immersed.push(observe_immersion(&at, scratch)?);
             }
         }
+        // In the cell of the body no digits are lost to its distance.
+        let displacement = |index| Some(state.motion(model, index).placement.position - model.rest_place(index)?);
         for field in &self.fields {
             for (index, body) in bodies.iter().enumerate() {
                 match (field.value)(&BodyContext {
                     body,
                     homogeneous: homogeneous.get(index),
                     contacts: contacts.get(index),
+                    displacement: self.displacements.then(|| displacement(index)).flatten(),
                     immersed: immersed.get(index).and_then(Option::as_ref),
                 }) {
                     FieldValue::Scalar(value) => row.push(value),

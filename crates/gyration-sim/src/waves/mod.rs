@@ -32,11 +32,11 @@ const LARGEST: f64 = 1.0;
 /// Coordinates within this part of the fastest are as fast: rounding does not choose.
 const AS_FAST: f64 = 1e-6;
 
-/// The state of a run that starts with waves.
+/// The state of a run that starts with waves, and where its bodies rest without them [m].
 ///
 /// # Errors
 /// [`NoWave`].
-pub fn start(model: &Model, asked: &WaveStart) -> Result<State, NoWave> {
+pub fn start(model: &Model, asked: &WaveStart) -> Result<(State, Vec<Vec3>), NoWave> {
     let cell = &asked.cell;
     let fault = |problem: String, help| NoWave { wave: None, key: None, problem, help, is_interrupted: false };
     if cell.model.bodies.len() > MOST_BODIES {
@@ -62,7 +62,8 @@ pub fn start(model: &Model, asked: &WaveStart) -> Result<State, NoWave> {
         let problem = format!("bodies are turned or strained by {most:.3}: that is no small motion");
         return Err(fault(problem, "give the waves less amplitude or energy, or hold what turns almost freely"));
     }
-    Ok(moved.state(model))
+    let place = |body| moved.rests()[moved.origin(body).0].placement.position;
+    Ok((moved.state(model), (0..model.bodies.len()).map(place).collect()))
 }
 
 /// Why there is no wave, where there are no bands.

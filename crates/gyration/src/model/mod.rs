@@ -35,6 +35,8 @@ pub struct Model {
     pub lattice: Arc<Lattice>,
     /// Where the cell of each body is [m]; empty without a lattice.
     origins: Arc<[Vec3]>,
+    /// Where each body is at rest, in its cell [m]; empty where that is not known.
+    at_rest: Arc<[Vec3]>,
     contacts: Interactions<Contact>,
     springs: Interactions<Spring>,
     bonds: Interactions<Bond>,
@@ -82,6 +84,7 @@ impl Model {
             fluid,
             lattice: Arc::default(),
             origins: Arc::from([]),
+            at_rest: Arc::from([]),
             contacts,
             springs,
             bonds,
@@ -98,6 +101,17 @@ impl Model {
             given_up: None,
         };
         model.with_ledger()
+    }
+
+    /// The model whose bodies rest at these places [m], each in its own cell.
+    #[must_use]
+    pub fn resting_at(self, places: impl Into<Arc<[Vec3]>>) -> Self {
+        Self { at_rest: places.into(), ..self }
+    }
+
+    /// Where a body is at rest [m], in its own cell; none where that is not known.
+    pub fn rest_place(&self, body: usize) -> Option<Vec3> {
+        self.at_rest.get(body).copied()
     }
 
     /// The model with names for its bodies, which are all called "body" else.
@@ -279,6 +293,7 @@ impl Model {
             fluid: self.fluid.clone(),
             lattice: Arc::clone(&self.lattice),
             origins: members.iter().filter_map(|body| self.origins.get(*body)).copied().collect(),
+            at_rest: members.iter().filter_map(|body| self.at_rest.get(*body)).copied().collect(),
             contacts: self.contacts.among(members, Contact::of_parties),
             springs: self.springs.among(members, Spring::of_parties),
             bonds: self.bonds.among(members, Bond::of_parties),
