@@ -99,8 +99,9 @@ fn a_wave_of_a_ring_keeps_its_frequency_to_the_square_of_its_amplitude() {
     };
     let granules =
         |amplitude: f64| boxes(&format!("{{ kappa = [{}, 0, 0], branch = 5, amplitude = {amplitude:?} }}", 1.0 / 6.0));
-    let cases: [(&dyn Fn(f64) -> String, (f64, usize), f64); 2] =
-        [(&chain, (0.125, 2), 2e-4), (&granules, (1.0 / 6.0, 5), 1e-3)];
+    /// The scene of an amplitude, κ and branch of the wave, the largest amplitude.
+    type Ring<'a> = (&'a dyn Fn(f64) -> String, (f64, usize), f64);
+    let cases: [Ring; 2] = [(&chain, (0.125, 2), 2e-4), (&granules, (1.0 / 6.0, 5), 1e-3)];
     for (text, wave, amplitude) in cases {
         let errors = [1.0, 0.5, 0.25].map(|part| phase_error(text, wave, 5.0, part * amplitude));
         let ratios = [errors[0] / errors[1], errors[1] / errors[2]];

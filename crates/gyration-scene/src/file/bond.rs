@@ -44,7 +44,7 @@ pub struct Bond {
 #[serde(untagged)]
 pub enum BondDamping {
     /// Rows (N s/m, N m s).
-    Matrix([[f64; 6]; 6]),
+    Matrix(Box<[[f64; 6]; 6]>),
     /// On the relative velocity of the points (N s/m).
     Number(NonNegative<SpringDamping>),
 }
