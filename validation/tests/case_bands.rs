@@ -168,8 +168,8 @@ fn a_square_lattice_with_diagonals_has_its_speeds_and_corners() {
     case.check("X, upper [rad/s]", (4.0 * (side + diagonal) / mass).sqrt(), corner[2], TOLERANCE);
     case.check("X, lower [rad/s]", (4.0 * diagonal / mass).sqrt(), corner[1], TOLERANCE);
     let corner = frequencies(&waves, [0.5, 0.5, 0.0]);
-    case.check("M, twice [rad/s]", (4.0 * side / mass).sqrt(), corner[1], TOLERANCE);
-    case.check("M, twice [rad/s]", (4.0 * side / mass).sqrt(), corner[2], TOLERANCE);
+    case.check("M, one of two [rad/s]", (4.0 * side / mass).sqrt(), corner[1], TOLERANCE);
+    case.check("M, the other [rad/s]", (4.0 * side / mass).sqrt(), corner[2], TOLERANCE);
     // At κ = 1e-4 the slope of ω is a part of 5e-8 less.
     let speed = |direction: [f64; 3]| {
         let branches = row_towards(&waves, direction.map(|part| 1e-4 * part), direction).branches;

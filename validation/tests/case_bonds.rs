@@ -128,7 +128,8 @@ fn mass() -> f64 {
 
 fn balls(contact: &str) -> String {
     format!(
-        "lattice = {{ cell = [[{:?}, 0, 0]] }}\n[[body]]\nname = \"a\"\nshape = {{ sphere = {{ radius = {RADIUS} }} }}\n\
+        "lattice = {{ cell = [[{:?}, 0, 0]] }}\n[[body]]\nname = \"a\"\n\
+         shape = {{ sphere = {{ radius = {RADIUS} }} }}\n\
          density = 1000\n[[contact]]\nbetween = [\"a\", \"a\"]\n{REPULSION}\n{contact}",
         2.0 * RADIUS + GAP
     )
@@ -147,7 +148,8 @@ fn balls_pressed_between_planes_swing_with_their_contacts() {
     };
     let ball = |name: &str, place: f64| {
         format!(
-            "[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = {RADIUS} }} }}\ndensity = 1000\nposition = [{place:?}, 0, 0]\n"
+            "[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = {RADIUS} }} }}\ndensity = 1000\n\
+             position = [{place:?}, 0, 0]\n"
         )
     };
     let contact = |with: &str| format!("[[contact]]\n{with}\n{REPULSION}\n");
@@ -199,7 +201,8 @@ fn cubes_in_a_row_push_with_faces_and_sides() {
         * 1e-4_f64.powf(nu)
         * (nu * side * side * (nearer + farther) + 4.0 * side * (near - far));
     let text = format!(
-        "lattice = {{ cell = [[{:?}, 0, 0]] }}\n[[body]]\nname = \"a\"\nshape = {{ box = {{ size = [{side}, {side}, {side}] }} }}\n\
+        "lattice = {{ cell = [[{:?}, 0, 0]] }}\n[[body]]\nname = \"a\"\n\
+         shape = {{ box = {{ size = [{side}, {side}, {side}] }} }}\n\
          density = 1000\n[[contact]]\nbetween = [\"a\", \"a\"]\n{REPULSION}\n",
         side + gap
     );

@@ -63,8 +63,9 @@ fn waves_of_granules_that_contract_have_complex_wave_vectors() {
     let (drag, gain) = (150.0, 300.0);
     let zero = "[[0, 0, 0], [0, 0, 0], [0, 0, 0]]";
     let kind = format!(
-        "contractile = {{ {}, contraction_viscosity = {drag}, drive = {{ constant = {{ value = {zero} }} }}, feedback = \
-         {{ measure = {{ stretch = [1, 0, 0] }}, gain = [[{}, 0, 0], [0, 0, 0], [0, 0, 0]], bias = [[{gain}, 0, 0], [0, \
+        "contractile = {{ {}, contraction_viscosity = {drag}, drive = {{ constant = {{ value = {zero} }} }}, \
+         feedback = {{ measure = {{ stretch = [1, 0, 0] }}, gain = [[{}, 0, 0], [0, 0, 0], [0, 0, 0]], \
+         bias = [[{gain}, 0, 0], [0, \
          0, 0], [0, 0, 0]] }} }}",
         GRANULE.material(),
         -gain,
@@ -173,7 +174,8 @@ fn a_string_and_a_lattice_lose_their_stability_where_they_must() {
     // A taut chain held by springs to space across it: ω² = (4T s² + b a)/(ma) across, least at the edge of the zone.
     let (held, stiffness) = (2.0, 40.0);
     let anchor = format!(
-        "shape = {{ points = [{{ mass = 1, at = [0, 0, 0] }}] }}\nspring = [{{ anchor = [0, 0, 0], stiffness = {held:?} \
+        "shape = {{ points = [{{ mass = 1, at = [0, 0, 0] }}] }}\n\
+         spring = [{{ anchor = [0, 0, 0], stiffness = {held:?} \
          }}]"
     );
     let chain = LatticeScene::new(&[X]).body("a", [0.0; 3], &anchor);

@@ -174,7 +174,8 @@ fn warnings(waves: &LatticeWaves, rows: &[BandRow]) -> Vec<String> {
     let mut warnings = Vec::new();
     if let Some(left) = waves.rest().unrest {
         warnings.push(format!(
-            "the cell as it is written does not rest: accelerations of {left:.2e} in units of the bodies' sizes are left; \
+            "the cell as it is written does not rest: accelerations of {left:.2e} in units of the bodies' sizes are \
+             left; \
              relax = [\"granules\"] seeks its rest"
         ));
     }
