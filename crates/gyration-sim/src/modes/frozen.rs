@@ -106,6 +106,11 @@ impl FrozenSystem {
         State { time: self.time, bodies: numbers.to_vec(), low: Vec::new(), works: vec![0.0; self.model.works().len()] }
     }
 
+    /// The place in space [m] of one in the cell of a body.
+    pub fn in_space(&self, body: usize, place: &Vec3) -> Vec3 {
+        self.model.in_space(body, place)
+    }
+
     /// Whether a pin, a spring to an anchor or a force of its own may hold one of them.
     pub fn is_anchored(&self) -> bool {
         let is_held = self.model.springs().iter().any(|spring| spring.law.stiffness > 0.0 && spring.bodies().is_none());

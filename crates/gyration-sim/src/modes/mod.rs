@@ -113,7 +113,7 @@ pub enum NoRest {
     #[error("the body has no inertia: it has no modes, but the velocities that the fluid lets it have")]
     WithoutInertia,
     /// Other bodies act on it.
-    #[error("other bodies act on the body: the rest of several bodies together is not looked for")]
+    #[error("others act on the body: `gyration modes` looks for the rest that they have together")]
     ActedOn,
     /// The search came to no end.
     #[error(

@@ -1,6 +1,6 @@
 //! Bands of a lattice, in a form to print.
 
-use super::modes::{Named, RestPlace};
+use super::modes::{Named, RestPlace, left_out};
 use crate::modes::PARTS;
 use crate::modes::bands::{BandPath, BandRow, BandShape, LatticeWaves, NoBands, Sound, StrainPath, StrainedCell, Zone};
 use gyration::tensor::{Mat3, Vec3};
@@ -160,7 +160,8 @@ fn rest(waves: &LatticeWaves, names: &[&str]) -> CellRestSurvey {
     let rest = waves.rest();
     let vectors = |vectors: &[Vec3]| vectors.iter().map(|vector| (*vector).into()).collect();
     let rows = |matrix: &Mat3| [0, 1, 2].map(|row| [0, 1, 2].map(|column| matrix[(row, column)]));
-    let bodies = names.iter().zip(&rest.bodies).map(|(name, rest)| ((*name).to_owned(), RestPlace::of(rest)));
+    let bodies = names.iter().zip(&rest.bodies).enumerate();
+    let bodies = bodies.map(|(body, (name, rest))| ((*name).to_owned(), RestPlace::of(rest, waves.place(body))));
     CellRestSurvey {
         force: vectors(&rest.force),
         stress: rows(&rest.stress),
@@ -191,7 +192,7 @@ fn warnings(waves: &LatticeWaves, rows: &[BandRow]) -> Vec<String> {
             -decay
         ));
     }
-    if waves.rest().bodies.iter().any(|rest| RestPlace::of(rest).left_out.is_some()) {
+    if waves.rest().bodies.iter().any(|rest| left_out(rest).is_some()) {
         warnings.push("contractions go on under their drives, and are held as they are at the start".to_owned());
     }
     warnings

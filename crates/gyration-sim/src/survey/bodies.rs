@@ -151,11 +151,13 @@ pub fn modes(scene: &Scene) -> SceneModes {
 /// The matrices of a search have the square of the number of coordinates, and it solves with them some hundred times.
 const MOST_MEMBERS: usize = 100;
 
-/// The sets of bodies that springs or contacts join, each ascending.
+/// The sets of bodies that springs, bonds or contacts join, each ascending; in a lattice one may be joined to its own
+/// images alone.
 fn systems(model: &Model) -> Vec<Vec<usize>> {
     let acting = |pair: &[usize; 2]| pair.iter().all(|body| model.is_joined(*body));
     let joined = Components::joined(model.bodies.len(), model.chain().filter(acting));
-    joined.iter().filter(|members| members.len() > 1).map(<[usize]>::to_vec).collect()
+    let acts = |members: &&[usize]| members.iter().any(|body| model.is_joined(*body));
+    joined.iter().filter(acts).map(<[usize]>::to_vec).collect()
 }
 
 /// What `gyration modes --json` prints of a scene.

@@ -6,7 +6,7 @@ use crate::modes::{
 };
 use gyration::model::Model;
 use gyration::state::State;
-use gyration::tensor::Mat3;
+use gyration::tensor::{Mat3, Vec3};
 use nalgebra::ComplexField;
 use serde::{Serialize, Serializer};
 use std::f64::consts::TAU;
@@ -103,7 +103,7 @@ fn stands(rest: &Rest) -> Option<[[f64; 3]; 3]> {
 }
 
 /// What the small motions of a body leave out: of one whose contraction does not come to rest, the law of that.
-fn left_out(rest: &Rest) -> Option<String> {
+pub(super) fn left_out(rest: &Rest) -> Option<String> {
     match rest.contraction? {
         RestContraction::Stands(_) => None,
         RestContraction::GoesOn(speed) => Some(format!(
@@ -127,7 +127,7 @@ impl RestState {
         let found = modes(model, start, body, &rest).map_err(|reason| reason.to_string())?;
         let fastest = fastest(&found);
         let modes = found.iter().map(|mode| ModeSurvey::of(mode, fastest, |shapes| ShapeSurvey::of(&shapes[0])));
-        Ok(Self { place: RestPlace::of(&rest), modes: modes.collect() })
+        Ok(Self { place: RestPlace::of(&rest, model.in_space(body, &rest.placement.position)), modes: modes.collect() })
     }
 }
 
@@ -144,16 +144,18 @@ impl SystemRestState {
             Named(shapes.iter().enumerate().map(|(body, shape)| (name(body), ShapeSurvey::of(shape))).collect())
         };
         let fastest = fastest(&found);
-        let places = rests.iter().enumerate().map(|(body, rest)| (name(body), RestPlace::of(rest)));
+        let place = |body: usize, rest: &Rest| model.in_space(members[body], &rest.placement.position);
+        let places = rests.iter().enumerate().map(|(body, rest)| (name(body), RestPlace::of(rest, place(body, rest))));
         let modes = found.iter().map(|mode| ModeSurvey::of(mode, fastest, shapes));
         Ok(Self { bodies: Named(places.collect()), modes: modes.collect() })
     }
 }
 
 impl RestPlace {
-    pub(super) fn of(rest: &Rest) -> Self {
+    /// At this place in space [m].
+    pub(super) fn of(rest: &Rest, place: Vec3) -> Self {
         Self {
-            position: rest.placement.position.into(),
+            position: place.into(),
             gradient: rows(&rest.placement.gradient),
             stretches: rest.stretches.into(),
             pressure: rest.pressure,
@@ -213,7 +215,6 @@ fn rows(matrix: &Mat3) -> [[f64; 3]; 3] {
 mod tests {
     use super::*;
     use crate::modes::Participation;
-    use gyration::tensor::Vec3;
     use nalgebra::Complex;
 
     #[test]

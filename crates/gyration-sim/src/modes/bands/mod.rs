@@ -173,6 +173,11 @@ impl LatticeWaves {
         &self.rest
     }
 
+    /// Where a body rests in space [m].
+    pub fn place(&self, body: usize) -> Vec3 {
+        self.frozen.in_space(body, &self.rest.bodies[body].placement.position)
+    }
+
     /// k of κ [1/m].
     pub fn wave_vector(&self, kappa: &[f64; 3]) -> Vec3 {
         self.lattice.reciprocal().iter().zip(kappa).map(|(vector, kappa)| *kappa * vector).sum()
