@@ -66,6 +66,11 @@ impl SystemCoordinates {
         self.bodies.last().map_or([0, 0], |last| [last.z.end, last.gamma.end])
     }
 
+    /// Those of a body.
+    pub fn of(&self, body: usize) -> &Coordinates {
+        &self.bodies[body].places
+    }
+
     /// Where z of a body stand.
     pub fn range(&self, body: usize) -> Range<usize> {
         self.bodies[body].z.clone()

@@ -9,7 +9,7 @@
 mod exponential;
 
 use crate::modes::Rest;
-use crate::modes::bands::{Branch, LatticeWaves, NoBands};
+use crate::modes::bands::{BandShape, Branch, LatticeWaves, NoBands, unit_phase};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use exponential::exponential;
@@ -21,7 +21,6 @@ use gyration::tensor::{Mat3, Vec3, axial};
 use gyration_scene::{NoWave, Packet, StartingWave, WaveStart};
 use gyration_threads::Interruption;
 use nalgebra::{Complex, ComplexField, Matrix3, Vector3};
-use std::f64::consts::TAU;
 
 type C64 = Complex<f64>;
 
@@ -173,7 +172,7 @@ impl<'a> Moved<'a> {
                         }
                         let amplitude = libm::sqrt(2.0 * energy / count(&counts) as f64) / branch.omega;
                         let motions = self.motions(&branch);
-                        self.put(&branch, &motions, phase(turns) * amplitude, |place| place.factor(&kappa, None));
+                        self.put(&branch, &motions, unit_phase(turns) * amplitude, |place| place.factor(&kappa, None));
                         if Interruption::due().is_some() {
                             return Err(none(NoBands::Interrupted, Some(index)));
                         }
@@ -186,7 +185,7 @@ impl<'a> Moved<'a> {
 
     /// How the bodies of the cell move in a wave.
     fn motions(&self, branch: &Branch) -> Vec<Motion> {
-        let of_body = |(shape, rest): (&crate::modes::bands::BandShape, &Rest)| {
+        let of_body = |(shape, rest): (&BandShape, &Rest)| {
             let complex = |[re, im]: [f64; 2]| C64::new(re, im);
             let translation = Vector3::from(shape.translation.map(complex));
             let gradient = Matrix3::from_fn(|i, j| complex(shape.gradient[i][j]));
@@ -272,7 +271,7 @@ impl CellPlace<'_> {
     /// e^{ik·R}, within a packet e^{ik·R − |n − n₀|²/2w²} where n − n₀ is the way round the ring that is shorter.
     fn factor(&self, kappa: &[f64; 3], packet: Option<&Packet>) -> C64 {
         let Some(Packet { at, width }) = packet else {
-            return phase((0..3).map(|a| turns(kappa[a], self.at[a])).sum());
+            return unit_phase((0..3).map(|a| turns(kappa[a], self.at[a])).sum());
         };
         let away: [f64; 3] = std::array::from_fn(|a| {
             let (away, many) = (f64::from(self.at[a]) - at[a], f64::from(self.asked.repeat[a]));
@@ -280,7 +279,7 @@ impl CellPlace<'_> {
         });
         let square: f64 = away.iter().map(|away| away * away).sum();
         let turns = (0..3).map(|a| kappa[a] * (at[a] + away[a])).sum();
-        phase(turns) * libm::exp(-0.5 * square / (width * width))
+        unit_phase(turns) * libm::exp(-0.5 * square / (width * width))
     }
 }
 
@@ -288,12 +287,6 @@ impl CellPlace<'_> {
 fn turns(kappa: f64, n: u32) -> f64 {
     let turns = kappa * f64::from(n);
     turns - turns.round()
-}
-
-/// e^{2πi x}.
-fn phase(turns: f64) -> C64 {
-    let (sine, cosine) = libm::sincos(TAU * (turns - turns.round()));
-    C64::new(cosine, sine)
 }
 
 /// How many cells there are.

@@ -222,9 +222,12 @@ impl Model {
     /// To be called when all bodies are what they are to be.
     ///
     /// # Panics
-    /// If one end of a bond is no body of the model, or both are one in the same cell.
+    /// If one end of a bond is no body of the model, or has no inertia, or both are one in the same cell.
     #[must_use]
     pub fn with_bonds(mut self, bonds: Vec<Bond>) -> Self {
+        // A balance without inertia does not ask bonds again.
+        let moves = |body: &usize| self.bodies[*body].has_inertia();
+        assert!(bonds.iter().flat_map(|bond| &bond.bodies).all(moves), "bodies with bonds have inertia");
         self.bonds = Interactions::new(self.bodies.len(), bonds);
         self.with_ledger()
     }

@@ -10,10 +10,11 @@ use super::super::participation::{PARTS, energies};
 use super::super::spectrum::FirstOrder;
 use super::super::system::SystemCoordinates;
 use gyration::Inadmissible;
-use gyration::lattice::{Cell, Lattice, opposite};
+use gyration::lattice::{Cell, HERE, Lattice, opposite};
 use gyration::tensor::Vec3;
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{Complex, ComplexField, DMatrix, DVector, Vector3};
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 pub(super) type C64 = Complex<f64>;
 
@@ -33,8 +34,8 @@ pub(super) struct BlochSystem {
     pub stiffest: f64,
     /// Whether K(k) is Hermitian at every k, and nothing else acts.
     pub is_conservative: bool,
-    /// Twice the kinetic energy of each part of a motion as a form of ξ.
-    parts: [DMatrix<f64>; PARTS],
+    /// Of each body: where its ξ stand, and twice the kinetic energy of each part of a motion as a form of them.
+    parts: Vec<(Range<usize>, [DMatrix<f64>; PARTS])>,
 }
 
 /// What one cell does to another.
@@ -44,6 +45,8 @@ struct CellMatrices {
     /// R [m].
     place: Vec3,
     stiffness: DMatrix<f64>,
+    /// The entries of the stiffness that are not zero, few between cells.
+    entries: Vec<(usize, usize, f64)>,
     resistance: DMatrix<f64>,
     first: FirstOrder,
 }
@@ -66,26 +69,29 @@ pub(super) struct WaveMatrices {
 }
 
 impl BlochSystem {
-    /// About a state of a cell.
+    /// About a state of a cell, with its coordinates and rates there.
     ///
     /// # Errors
     /// [`Inadmissible`] if the state is outside the model.
-    pub fn at(frozen: &mut FrozenSystem, lattice: &Lattice, numbers: &[f64]) -> Result<Self, Inadmissible> {
+    pub fn at(
+        frozen: &mut FrozenSystem,
+        coordinates: &SystemCoordinates,
+        lattice: &Lattice,
+        (numbers, rates): (&[f64], &[f64]),
+    ) -> Result<Self, Inadmissible> {
         let slopes = frozen.slopes(numbers)?;
-        let rates = frozen.rates(numbers)?;
-        let coordinates = SystemCoordinates::at(frozen, numbers);
-        let velocities = coordinates.contraction_velocities(frozen, numbers, &rates);
+        let velocities = coordinates.contraction_velocities(frozen, numbers, rates);
         let cells = slopes.cells().into_iter().map(|cell| {
             let own = slopes.of_cell(cell);
             let (stiffness, first) = coordinates.first_order(&velocities, &own);
-            let place = lattice.place(cell);
-            CellMatrices { cell, place, stiffness, resistance: coordinates.resistance(&own), first }
+            let (place, entries) = (lattice.place(cell), entries(&stiffness));
+            CellMatrices { cell, place, stiffness, entries, resistance: coordinates.resistance(&own), first }
         });
         let cells: Vec<CellMatrices> = cells.collect();
         let counts = coordinates.counts();
         let stiffest = cells.iter().map(|cell| cell.stiffness.norm()).sum();
         let is_conservative = is_conservative(&cells, stiffest) && counts[1] == 0;
-        let parts = parts(frozen, &coordinates, numbers);
+        let parts = parts(frozen, coordinates, numbers);
         Ok(Self { cells, counts, stiffest, is_conservative, parts })
     }
 
@@ -102,6 +108,17 @@ impl BlochSystem {
     /// Their second derivatives at k = 0 along a direction [m² × each].
     pub fn curvature(&self, along: &Vec3) -> WaveMatrices {
         self.summed(|cell| C64::new(-cell.place.dot(along) * cell.place.dot(along), 0.0))
+    }
+
+    /// ζᴴ (∂K/∂k) ξ, a component each axis of space [m/s²].
+    pub fn stiffness_slope(&self, kappa: &[f64; 3], left: &DVector<C64>, right: &DVector<C64>) -> Vector3<C64> {
+        let mut slope = Vector3::zeros();
+        for cell in self.cells.iter().filter(|cell| cell.cell != HERE) {
+            let terms = cell.entries.iter().map(|(i, j, entry)| left[*i].conjugate() * right[*j] * *entry);
+            let factor = phase(kappa, cell.cell) * C64::new(0.0, 1.0) * terms.sum::<C64>();
+            slope += cell.place.map(|component| factor * component);
+        }
+        slope
     }
 
     /// How many cells away along a direction something still acts.
@@ -135,7 +152,9 @@ impl BlochSystem {
             if factor == C64::new(0.0, 0.0) {
                 continue;
             }
-            add(&mut sum.stiffness, &cell.stiffness, factor);
+            for (i, j, entry) in &cell.entries {
+                sum.stiffness[(*i, *j)] += factor * *entry;
+            }
             if self.is_conservative {
                 continue;
             }
@@ -150,23 +169,26 @@ impl BlochSystem {
 
     /// The shares of a motion: translation, rotation, shear, stretch, breathing.
     pub fn participation(&self, shape: &DVector<C64>) -> [f64; PARTS] {
-        let form = |matrix: &DMatrix<f64>| {
-            let part = |entry: fn(&C64) -> f64| {
-                let real = shape.map(|value| entry(&value));
-                (matrix * &real).dot(&real)
-            };
-            part(|value| value.re) + part(|value| value.im)
-        };
-        let shares = self.parts.each_ref().map(form);
+        let mut shares = [0.0; PARTS];
+        for (range, forms) in &self.parts {
+            let own = shape.rows(range.start, range.len());
+            let (real, imaginary) = (own.map(|value| value.re), own.map(|value| value.im));
+            let form = |matrix: &DMatrix<f64>| (matrix * &real).dot(&real) + (matrix * &imaginary).dot(&imaginary);
+            shares.iter_mut().zip(forms).for_each(|(share, matrix)| *share += form(matrix));
+        }
         let total: f64 = shares.iter().sum();
         // Terms of two parts, halved for each, may leave a share below zero; rounding is none.
         shares.map(|share| if total > 0.0 && share.abs() > NO_SHARE * total { share / total } else { 0.0 })
     }
 }
 
-/// e^{2πi κ·n}; exact where κ·n is a multiple of a quarter.
+/// e^{2πi κ·n}.
 fn phase(kappa: &[f64; 3], cell: Cell) -> C64 {
-    let turns: f64 = kappa.iter().zip(cell).map(|(kappa, n)| kappa * f64::from(n)).sum();
+    unit_phase(kappa.iter().zip(cell).map(|(kappa, n)| kappa * f64::from(n)).sum())
+}
+
+/// e^{2πi x}; exact where x is a multiple of a quarter.
+pub(crate) fn unit_phase(turns: f64) -> C64 {
     let quarters = 4.0 * (turns - turns.round());
     match quarters {
         0.0 => C64::new(1.0, 0.0),
@@ -178,6 +200,12 @@ fn phase(kappa: &[f64; 3], cell: Cell) -> C64 {
             C64::new(cosine, sine)
         }
     }
+}
+
+/// The entries of a matrix that are not zero.
+fn entries(matrix: &DMatrix<f64>) -> Vec<(usize, usize, f64)> {
+    let places = (0..matrix.ncols()).flat_map(|j| (0..matrix.nrows()).map(move |i| (i, j)));
+    places.map(|(i, j)| (i, j, matrix[(i, j)])).filter(|(.., entry)| *entry != 0.0).collect()
 }
 
 /// Whether K_{−R} = K_Rᵀ for all R, and nothing resists.
@@ -193,31 +221,27 @@ fn is_conservative(cells: &[CellMatrices], stiffest: f64) -> bool {
 }
 
 /// The energies of the parts of a motion as forms of ξ, from those of unit motions and of their sums.
-fn parts(frozen: &FrozenSystem, coordinates: &SystemCoordinates, numbers: &[f64]) -> [DMatrix<f64>; PARTS] {
-    let [size, _] = coordinates.counts();
-    let placements: Vec<_> = (0..frozen.count()).map(|body| frozen.motion(numbers, body).placement).collect();
-    let of = |body: usize, z: &DVector<f64>| {
-        let shapes = coordinates.shapes(frozen, z);
-        energies(&frozen.bodies()[body], &placements[body], &shapes[body])
-    };
-    let mut parts = std::array::from_fn(|_| DMatrix::zeros(size, size));
-    for body in 0..frozen.count() {
-        let range = coordinates.range(body);
+fn parts(
+    frozen: &FrozenSystem,
+    coordinates: &SystemCoordinates,
+    numbers: &[f64],
+) -> Vec<(Range<usize>, [DMatrix<f64>; PARTS])> {
+    let of_body = |body: usize| {
+        let (own, placement) = (&frozen.bodies()[body], frozen.motion(numbers, body).placement);
+        let size = coordinates.range(body).len();
+        let of = |z: &DVector<f64>| energies(own, &placement, &coordinates.of(body).shape(own, z));
         let unit = |i: usize| DVector::from_fn(size, |k, _| f64::from(u8::from(k == i)));
-        let alone: Vec<[f64; PARTS]> = range.clone().map(|i| of(body, &unit(i))).collect();
-        for (a, i) in range.clone().enumerate() {
-            for (b, j) in range.clone().enumerate().take(a + 1) {
-                let both = of(body, &(unit(i) + unit(j)));
-                for part in 0..PARTS {
-                    let shared = match a == b {
-                        true => alone[a][part],
-                        false => 0.5 * (both[part] - alone[a][part] - alone[b][part]),
-                    };
-                    parts[part][(i, j)] = shared;
-                    parts[part][(j, i)] = shared;
-                }
+        let alone: Vec<[f64; PARTS]> = (0..size).map(|i| of(&unit(i))).collect();
+        let mut forms =
+            std::array::from_fn(|part| DMatrix::from_fn(size, size, |i, j| if i == j { alone[i][part] } else { 0.0 }));
+        for (i, j) in (0..size).flat_map(|i| (0..i).map(move |j| (i, j))) {
+            let both = of(&(unit(i) + unit(j)));
+            for (part, form) in forms.iter_mut().enumerate() {
+                let shared = 0.5 * (both[part] - alone[i][part] - alone[j][part]);
+                (form[(i, j)], form[(j, i)]) = (shared, shared);
             }
         }
-    }
-    parts
+        (coordinates.range(body), forms)
+    };
+    (0..frozen.count()).map(of_body).collect()
 }

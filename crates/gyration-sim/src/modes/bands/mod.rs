@@ -30,6 +30,7 @@ use super::participation::PARTS;
 use super::shape::ModeShape;
 use super::system::SystemCoordinates;
 use super::{NoRest, Rest, RestContraction, equilibrium, system_rest};
+pub(crate) use bloch::unit_phase;
 use bloch::{BlochSystem, C64};
 use gyration::Inadmissible;
 use gyration::lattice::Lattice;
@@ -152,8 +153,9 @@ impl LatticeWaves {
             None => frozen.start.clone(),
         };
         let lattice = Lattice::clone(&model.lattice);
-        let system = BlochSystem::at(&mut frozen, &lattice, &numbers).map_err(NoRest::from)?;
         let rates = frozen.rates(&numbers).map_err(NoRest::from)?;
+        let coordinates = SystemCoordinates::at(&frozen, &numbers);
+        let system = BlochSystem::at(&mut frozen, &coordinates, &lattice, (&numbers, &rates)).map_err(NoRest::from)?;
         let left = members.iter().flat_map(|body| {
             let (slots, size) = (frozen.slots(*body), frozen.bodies()[*body].size);
             let of = |range: std::ops::Range<usize>, size: f64| rates[range].iter().map(move |rate| rate.abs() / size);
@@ -164,7 +166,6 @@ impl LatticeWaves {
         let bodies = sought.unwrap_or_else(|| equilibrium::rest_at(&mut frozen, &numbers));
         let (force, stress) = carried(&mut frozen, &lattice, &numbers).map_err(NoRest::from)?;
         let rest = CellRest { cell: lattice.vectors().to_vec(), force, stress, bodies, unrest };
-        let coordinates = SystemCoordinates::at(&frozen, &numbers);
         Ok(Self { frozen, coordinates, system, lattice, rest })
     }
 

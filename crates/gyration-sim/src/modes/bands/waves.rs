@@ -67,15 +67,17 @@ impl BlochSystem {
         let squares: Vec<f64> = order.iter().map(|k| eigen.eigenvalues[*k]).collect();
         let columns: Vec<DVector<C64>> = order.iter().map(|k| eigen.eigenvectors.column(*k).into_owned()).collect();
         let mut vectors = DMatrix::from_columns(&columns);
-        let slopes = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| self.slope(kappa, &axis).stiffness);
-        let directed = self.slope(kappa, along).stiffness;
         let same = SAME * squares.iter().fold(0.0, |most: f64, square| most.max(square.abs()));
         let mut from = 0;
         while from < squares.len() {
             let count = squares[from..].iter().take_while(|square| *square - squares[from] <= same).count();
             if count > 1 {
                 let space = vectors.columns(from, count).into_owned();
-                let within = hermitian(space.adjoint() * &directed * &space);
+                let shapes: Vec<DVector<C64>> = space.column_iter().map(|column| column.into_owned()).collect();
+                let slope = |i: usize, j: usize| self.stiffness_slope(kappa, &shapes[i], &shapes[j]);
+                let directed =
+                    |i: usize, j: usize| along.iter().zip(&slope(i, j)).map(|(part, slope)| slope * *part).sum();
+                let within = hermitian(DMatrix::from_fn(count, count, directed));
                 let turned = within.try_symmetric_eigen(f64::EPSILON, SWEEPS).ok_or(NoRoots)?.eigenvectors;
                 vectors.columns_mut(from, count).copy_from(&(space * turned));
             }
@@ -89,9 +91,10 @@ impl BlochSystem {
                 square if square < 0.0 => C64::new(libm::sqrt(-square), 0.0),
                 _ => C64::new(0.0, -omega),
             };
-            let slope = |slope: &DMatrix<C64>| shape.dotc(&(slope * &shape)).re / (2.0 * omega);
             let oscillates = root.im != 0.0;
-            let velocity = oscillates.then(|| Vec3::from(slopes.each_ref().map(slope)));
+            // Zero has no sign.
+            let velocity = oscillates
+                .then(|| self.stiffness_slope(kappa, &shape, &shape).map(|slope| slope.re / (2.0 * omega) + 0.0));
             Wave { root, shape, velocity }
         };
         let mut branches: Vec<Wave> = (0..squares.len()).map(wave).collect();

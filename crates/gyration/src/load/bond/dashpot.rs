@@ -8,8 +8,9 @@
 
 use super::gram::{Span, SpanSlopes};
 use super::stiffness::{BondAxes, Stiffness6};
-use super::{BondPlace, Loads, packed, unpacked};
+use super::{BondPlace, Loads};
 use crate::load::resistance::Mat12;
+use crate::load::{loads, numbers};
 use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
 use nalgebra::SVector;
 use std::sync::Arc;
@@ -138,7 +139,7 @@ fn vector_slopes(
 ) -> [[Vec12; 2]; 2] {
     let base = Resisted::at(span, at);
     let shares = shares(at);
-    let Loads { force: center, moment: gradient } = unpacked(&Vec12::ith(k, 1.0));
+    let Loads { force: center, moment: gradient } = loads(&Vec12::ith(k, 1.0));
     let sign = if end == 0 { -1.0 } else { 1.0 };
     let moved = sign * (center + gradient * points[end]);
     let (inverse, rate) = (at.inverses[end], span.gradient_rates[end] * at.inverses[end]);
@@ -163,7 +164,7 @@ fn vector_slopes(
                 loads.moment -=
                     (0.5 * shares[on]) * cross_matrix(&whole) * transposed * gradient.transpose() * transposed;
             }
-            packed(&loads)
+            numbers(&loads)
         })
     };
     let (placed, moving) = (change(by_place, true), change(by_rate, false));

@@ -17,7 +17,6 @@ pub use stiffness::{BondAxes, BondStiffness, Stiffness6};
 
 use super::interactions::{Interaction, InteractionEnd, Party};
 use super::resistance::Mat12;
-use super::slopes::{loads, numbers};
 use super::{LoadSlopes, Loads};
 use crate::kinematics::BodyMotion;
 use crate::lattice::{Cell, HERE};
@@ -176,8 +175,8 @@ impl Bond {
         if let Some(law) = &self.law {
             let (energy, stored) = match law {
                 BondLaw::Distance(expression) => {
-                    let derivatives = distance(expression, &span, at.time, scratch)?;
-                    (derivatives.value, span.of_force(&self.points, &derivatives.force))
+                    let (energy, force) = distance_force(expression, &span, at.time, scratch)?;
+                    (energy, span.of_force(&self.points, &force))
                 }
                 BondLaw::Invariants(potential) => potential.loads(&self.points, &span, at.time, scratch)?,
                 BondLaw::Stiffness(stiffness) => stiffness.loads(&self.points, &span),
@@ -206,8 +205,8 @@ impl Bond {
         match &self.law {
             None => {}
             Some(BondLaw::Distance(expression)) => {
-                let derivatives = distance(expression, &span, at.time, scratch)?;
-                SpanSlopes::of_apart(&derivatives.slope).add_to(&self.points, &mut by_place);
+                let slope = distance_slope(expression, &span, at.time, scratch)?;
+                SpanSlopes::of_apart(&slope).add_to(&self.points, &mut by_place);
             }
             Some(BondLaw::Invariants(potential)) => {
                 potential.slopes(&span, at.time, scratch)?.add_to(&self.points, &mut by_place);
@@ -257,46 +256,33 @@ fn power(on: &[Loads; 2], at: &BondPlace) -> f64 {
     of(0) + of(1)
 }
 
-/// V, ∂V/∂Δ and ∂²V/∂Δ² of a potential of the distance.
-struct DistanceDerivatives {
-    value: f64,
-    force: Vec3,
-    slope: Mat3,
-}
-
-/// V′ e and V″ e⊗e + (V′/l)(1 − e⊗e); where the points coincide, V″ 1 if V′ = 0 there.
-fn distance(
-    expression: &Expression,
-    span: &Span,
-    time: f64,
-    scratch: &mut Scratch,
-) -> Result<DistanceDerivatives, BondFault> {
-    let length = span.apart.norm();
-    let (mut gradient, mut hessian) = ([0.0; 2], [0.0; 4]);
-    let found = expression.hessian(&[length, time], scratch, &mut gradient, &mut hessian);
-    let value = found.map_err(|undefined| match length {
-        0.0 => BondFault::NoLength,
-        _ => BondFault::Undefined(undefined),
-    })?;
-    let (first, second) = (gradient[0], hessian[0]);
-    if length == 0.0 {
-        let slope = Mat3::from_diagonal_element(second);
-        return match first {
-            0.0 => Ok(DistanceDerivatives { value, force: Vec3::zeros(), slope }),
-            _ => Err(BondFault::NoLength),
-        };
+/// e = Δ/l; none where the points coincide and V′ = 0.
+fn direction(span: &Span, first: f64) -> Result<Option<Vec3>, BondFault> {
+    match span.apart.try_normalize(0.0) {
+        None if first != 0.0 => Err(BondFault::NoLength),
+        direction => Ok(direction),
     }
-    let e = span.apart / length;
+}
+
+/// What lacks a value or a derivative: where the points coincide, the law has none there.
+fn undefined(length: f64) -> impl Fn(Undefined) -> BondFault {
+    move |undefined| if length == 0.0 { BondFault::NoLength } else { BondFault::Undefined(undefined) }
+}
+
+/// V of the distance and ∂V/∂Δ = V′ e.
+fn distance_force(law: &Expression, span: &Span, time: f64, scratch: &mut Scratch) -> Result<(f64, Vec3), BondFault> {
+    let (length, mut gradient) = (span.apart.norm(), [0.0; 2]);
+    let value = law.gradient(&[length, time], scratch, &mut gradient).map_err(undefined(length))?;
+    let e = direction(span, gradient[0])?;
+    Ok((value, gradient[0] * e.unwrap_or_else(Vec3::zeros)))
+}
+
+/// ∂²V/∂Δ² = V″ e⊗e + (V′/l)(1 − e⊗e); V″ 1 where the points coincide.
+fn distance_slope(law: &Expression, span: &Span, time: f64, scratch: &mut Scratch) -> Result<Mat3, BondFault> {
+    let (length, mut gradient, mut hessian) = (span.apart.norm(), [0.0; 2], [0.0; 4]);
+    law.hessian(&[length, time], scratch, &mut gradient, &mut hessian).map_err(undefined(length))?;
+    let (first, second) = (gradient[0], hessian[0]);
+    let Some(e) = direction(span, first)? else { return Ok(Mat3::from_diagonal_element(second)) };
     let ee = e * e.transpose();
-    let slope = second * ee + (first / length) * (Mat3::identity() - ee);
-    Ok(DistanceDerivatives { value, force: first * e, slope })
-}
-
-/// (f | M) of twelve numbers, and back.
-fn unpacked(twelve: &nalgebra::SVector<f64, 12>) -> Loads {
-    loads(twelve)
-}
-
-fn packed(of: &Loads) -> nalgebra::SVector<f64, 12> {
-    numbers(of)
+    Ok(second * ee + (first / length) * (Mat3::identity() - ee))
 }
