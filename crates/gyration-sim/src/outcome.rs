@@ -266,7 +266,7 @@ impl Stop {
                 Reason::Strayed,
                 format!("body {body:?} has come {:e} m away from its place in the lattice", left.value),
                 "Which bodies meet across cells is listed by where they start: let them stay within half a cell of \
-                 there, or write a larger cell that holds several."
+                 there beside one another, or write a larger cell that holds several."
                     .to_string(),
             ),
             Quantity::Volume => (

@@ -10,6 +10,7 @@ mod dissipation;
 mod interruptions;
 mod islands;
 mod joined;
+mod lattices;
 mod meetings;
 mod modes;
 mod neighbours;

@@ -48,8 +48,8 @@ pub enum Quantity {
         /// Number of the rule by which they meet.
         rule: usize,
     },
-    /// How far a body of a lattice has come away from its start in its cell, which must be less than what the pairs
-    /// across cells were listed for [m].
+    /// How far a body of a lattice has come away from its start in its cell, beside the first body, which must be less
+    /// than what the pairs across cells were listed for [m].
     Stray,
     /// det P, which must be > 0: the body is not turned inside out.
     Volume,

@@ -144,8 +144,13 @@ fn blocks_between_bodies_that_meet_across_cells_are_derivatives_of_the_rates() {
 }
 
 #[test]
-fn a_body_that_strays_from_its_cell_leaves_the_model() {
-    let images = ImagePairs::new(Vec::new(), vec![Vec3::x()], 0.5);
-    assert!(images.strayed(0, &Vec3::new(1.4, 0.2, 0.0)).is_none());
-    assert_eq!(images.strayed(0, &Vec3::new(1.0, 0.0, 0.75)), Some(0.75));
+fn a_body_strays_where_the_others_do_not_go_along() {
+    let images = ImagePairs::new(Vec::new(), vec![Vec3::x(), Vec3::y()], 0.5);
+    let drift = Vec3::new(7.0, 0.0, -3.0);
+    let at = |away: f64| {
+        images.strayed(move |body| drift + if body == 0 { Vec3::x() } else { Vec3::y() + away * Vec3::z() })
+    };
+    assert!(at(0.4).is_none());
+    let (body, distance) = at(0.75).unwrap();
+    assert!(body == 1 && (distance - 0.75).abs() < 1e-14);
 }

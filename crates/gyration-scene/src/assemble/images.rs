@@ -33,8 +33,8 @@ struct Extents<'a> {
 
 /// The pairs of all cells by the rules of one, each of which is written at a key; notes bodies that overlap an image.
 ///
-/// Listed are those that come within reach while no body strays from its start by more than half the shortest cell
-/// vector.
+/// Listed are those that come within reach while no body strays from its start, beside the first one, by more than half
+/// the shortest cell vector.
 pub(super) fn images(
     cells: &Cells,
     (rules, keys): (&[PairRule], &[Key]),

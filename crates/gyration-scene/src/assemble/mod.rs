@@ -207,7 +207,7 @@ pub(crate) fn assemble(
         lattice::check_held(&si(&partial.world.gravity), &contacts, &bodies, reporter);
         // Of a cell with an error the indices of bodies do not hold.
         if bodies.len() == assembled.len() {
-            images::images(cells, (&rules, &rule_keys), &bodies, reporter);
+            images::images(&cells.unit(), (&rules, &rule_keys), &bodies, reporter);
         }
     }
     if !reporter.diagnostics.is_empty() {

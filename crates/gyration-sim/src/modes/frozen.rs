@@ -10,7 +10,7 @@ use gyration::contractile::ContractionSource;
 use gyration::dynamics::{Workspace, jacobian, rates};
 use gyration::fluid::Fluid;
 use gyration::lattice::Cell;
-use gyration::load::{Interaction, Party, Spring};
+use gyration::load::{Interaction, Party};
 use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
@@ -72,8 +72,8 @@ impl FrozenSystem {
             workspace: Workspace::default(),
             time: start.time,
             members: members.to_vec(),
-            springs: springs_among(model, members),
-            bonds: bonds_among(model, members),
+            springs: numbers_among(model.springs(), members),
+            bonds: numbers_among(model.bonds(), members),
             start: numbers,
             evaluations: 0,
         }
@@ -263,17 +263,11 @@ impl FrozenSystem {
     }
 }
 
-/// The numbers of the springs that join some bodies, or hold them.
-fn springs_among(model: &Model, members: &[usize]) -> Vec<usize> {
+/// The numbers of what joins some bodies, or holds them.
+fn numbers_among<J: Interaction>(all: &[J], members: &[usize]) -> Vec<usize> {
     let is_member = |party: Party| party.body().is_none_or(|body| members.binary_search(&body).is_ok());
-    let is_among = |spring: &Spring| spring.parties().into_iter().all(is_member);
-    (0..model.springs().len()).filter(|number| is_among(&model.springs()[*number])).collect()
-}
-
-/// The numbers of the bonds between some bodies.
-fn bonds_among(model: &Model, members: &[usize]) -> Vec<usize> {
-    let is_member = |body: usize| members.binary_search(&body).is_ok();
-    (0..model.bonds().len()).filter(|number| model.bonds()[*number].bodies.into_iter().all(is_member)).collect()
+    let is_among = |number: &usize| all[*number].parties().into_iter().all(is_member);
+    (0..all.len()).filter(is_among).collect()
 }
 
 /// A body whose signals have the values of the start, and its numbers without velocities.

@@ -140,12 +140,8 @@ impl Motions {
         }
         let Self { bodies, near, .. } = self;
         let place = |index: usize| bodies[index].motion.placement.position;
-        if let Some(images) = model.images() {
-            for body in 0..bodies.len() {
-                if let Some(distance) = images.strayed(body, &place(body)) {
-                    return Err(Inadmissible { body, quantity: Quantity::Stray, value: distance });
-                }
-            }
+        if let Some((body, value)) = model.images().and_then(|images| images.strayed(place)) {
+            return Err(Inadmissible { body, quantity: Quantity::Stray, value });
         }
         near.update(model.rules(), model.images(), &model.bodies, place);
         self.find_reached(model);

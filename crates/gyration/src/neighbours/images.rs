@@ -1,8 +1,8 @@
 //! Pairs of bodies across the cells of a lattice: which body meets which image of which.
 //!
-//! They are listed once, by where the bodies of a cell start, as far as they reach when each has come away from its
-//! start by no more than a bound: a body that strays farther leaves the model. So nothing is looked for while a lattice
-//! moves, whatever the number of cells.
+//! They are listed once, by where the bodies of a cell start, as far as they reach when each has come away from there,
+//! beside the first body, by no more than a bound: one that strays farther leaves the model. So nothing is looked for
+//! while a lattice moves, whatever the number of cells, and all of them may drift together.
 
 use super::BodyPair;
 use crate::lattice::Cell;
@@ -27,7 +27,7 @@ pub struct ImagePairs {
     starts: Arc<[Vec3]>,
     /// Whether each meets anybody.
     meets: Arc<[bool]>,
-    /// How far a body may come away from there [m].
+    /// How far a body may come away from there, beside the first one [m].
     stray: f64,
 }
 
@@ -51,15 +51,11 @@ impl ImagePairs {
         self.meets[body]
     }
 
-    /// How far a body may come away from its start [m].
-    pub fn stray(&self) -> f64 {
-        self.stray
-    }
-
-    /// How far a body at a place in its cell has come from its start, if that is too far [m].
-    pub fn strayed(&self, body: usize, place: &Vec3) -> Option<f64> {
-        let distance = (place - self.starts[body]).norm();
-        (distance > self.stray).then_some(distance)
+    /// The first body that has come too far from its start, beside the first of all, and how far [m].
+    pub fn strayed(&self, place: impl Fn(usize) -> Vec3) -> Option<(usize, f64)> {
+        let drift = place(0) - self.starts[0];
+        let distance = |body: usize| (place(body) - self.starts[body] - drift).norm();
+        (1..self.starts.len()).map(|body| (body, distance(body))).find(|(_, distance)| *distance > self.stray)
     }
 
     /// Those between some bodies, which ascend, by their places among these.
