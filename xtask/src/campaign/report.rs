@@ -22,7 +22,9 @@ pub struct Report {
 impl Report {
     /// Reads what a run said; what is wrong with it otherwise.
     pub fn of(said: &Said) -> Result<Self, String> {
-        let report = Json::parse(&said.stdout).ok_or("what --json prints is no JSON")?;
+        let first = || said.stderr.lines().next().unwrap_or_default();
+        let is_no_report = || format!("--json prints no JSON; exit code {:?}: {}", said.code, first());
+        let report = Json::parse(&said.stdout).ok_or_else(is_no_report)?;
         let outcome = outcome(report.get("outcome").ok_or("--json has no outcome")?).ok_or("an outcome of no kind")?;
         let ledger = report.get("ledger").ok_or("--json has no ledger")?;
         let number =

@@ -262,9 +262,12 @@ fn arguments<'a>(recording: &'a str, wall_time: &'a str, more: &[&'a str]) -> Ve
     [&["run", "scene.toml", "-o", recording, "--json", "--set", wall_time], more].concat()
 }
 
+/// What a run says that its wall time ends before its first step, or before its shapes have their resistances.
+const NOT_BEGUN: [&str; 2] = ["before its first step", "its resistance takes longer than it may"];
+
 /// Whether a run was given up before its first step: it has nothing to report then.
 fn is_not_begun(said: &Said) -> bool {
-    said.code == Some(ENDED_EARLY) && said.stderr.contains("before its first step")
+    said.code == Some(ENDED_EARLY) && NOT_BEGUN.iter().any(|told| said.stderr.contains(told))
 }
 
 /// The first file that two folders do not have alike.
