@@ -159,6 +159,21 @@ fn energy_stored_at_the_start_that_dwarfs_all_other_is_warned_of() {
 }
 
 #[test]
+fn a_compressed_chain_is_held_by_its_neighbours() {
+    let chain = |lattice: &str| {
+        let contact = between("a", "a", "reach = 2e-2\n");
+        let body = ball("a", 0.05, "velocity = [1e-4, 0, 0]");
+        remarks(&format!("{HEAD}[lattice]\ncell = [[0.1003, 0, 0]]\n{lattice}\n{body}{contact}")).warnings
+    };
+    let wave = "repeat = [40, 1, 1]\nwave = { kappa = [0.25, 0, 0], branch = 5, amplitude = 1e-7 }";
+    assert_eq!(chain(wave), Vec::<String>::new());
+    // Those at a free end are not.
+    let [warning] = &chain("repeat = [8, 1, 1]\nperiodic = false")[..] else { panic!("one warning") };
+    let end = warning.contains("\"a-0\" and \"a-1\"") || warning.contains("\"a-6\" and \"a-7\"");
+    assert!(end && warning.contains("they are shot apart"), "{warning}");
+}
+
+#[test]
 fn a_pair_too_far_from_the_origin_for_its_gap_is_warned_of() {
     let told = |x: f64, apart: f64| {
         let moving = |name: &str, x: f64, v: f64| ball(name, 0.05, &format!("{}velocity = [{v:?}, 0, 0]", at(x)));

@@ -3,6 +3,7 @@
 //! A run keeps the distance of two bodies in twice the digits, wherever the origin is. What a scene gives has the
 //! digits of one number, as have the places of pinned bodies at any time.
 
+use super::joined::Joined;
 use super::trial::TrialPair;
 use crate::format::significant;
 use gyration::model::Model;
@@ -24,13 +25,12 @@ pub(super) fn warning(model: &Model, start: &State, rtol: f64) -> Option<String>
     if !(0..model.bodies.len()).any(|body| far(body) && model.meets_bodies(body)) {
         return None;
     }
-    let rules = model.rules().all().iter().enumerate();
-    let pairs = rules.flat_map(|(rule, set)| set.pairs().map(move |bodies| (rule, bodies)));
-    let far_ones = pairs.filter(|(_, bodies)| bodies.iter().any(|body| far(*body)));
-    let mut pairs = far_ones.flat_map(|(rule, bodies)| model.pairs_between(rule, bodies)).take(MOST_PAIRS);
-    pairs.find_map(|pair| {
+    let joined = (0..model.rules().all().len()).flat_map(|rule| Joined::of_rule(model, rule));
+    let far_ones = joined.filter(|two| two.bodies.iter().any(|body| far(*body)));
+    let mut pairs = far_ones.flat_map(|two| two.pairs(model).map(move |pair| (two, pair))).take(MOST_PAIRS);
+    pairs.find_map(|(two, pair)| {
         let distance = place(pair.bodies[0]).max(place(pair.bodies[1]));
-        let trial = TrialPair::of(model, start, &pair);
+        let trial = TrialPair::of(model, start, &two, &pair);
         let is_pinned = pair.bodies.iter().any(|body| model.bodies[*body].pin.is_some());
         let gap = if is_pinned { trial.turning_gap()? } else { trial.gap()? };
         // A repulsion d^−ν turns the rounding of a gap into so much of its energy.

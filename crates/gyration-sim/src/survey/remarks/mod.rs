@@ -5,6 +5,7 @@
 
 mod far;
 mod fluid;
+mod joined;
 mod meshes;
 mod neighbor;
 mod reaches;

@@ -1,12 +1,12 @@
 //! Reaches that are shorter than the gaps at which bodies turn back: the law is then another one.
 
+use super::joined::Joined;
 use super::trial::TrialPair;
 use crate::format::significant;
 use crate::survey::reach_change::ReachChange;
 use gyration::model::Model;
 use gyration::pair::Reach;
 use gyration::state::State;
-use gyration::tensor::Vec3;
 
 /// In so many gaps, or d₀, a law falls to what may be left out.
 const LEAST: f64 = 10.0;
@@ -32,20 +32,20 @@ fn warning(model: &Model, start: &State, rule: usize) -> Option<String> {
     }
 }
 
-/// Place [m] and velocity [m/s] of the first of two centres from the second.
-fn apart(model: &Model, start: &State, bodies: [usize; 2]) -> (Vec3, Vec3) {
-    let [one, other] = bodies.map(|body| start.motion_in_space(model, body));
-    (one.placement.position - other.placement.position, one.velocity.velocity - other.velocity.velocity)
-}
-
-/// A reach that is written, beside the gap at which the fastest two of its bodies turn back.
+/// A reach that is written, beside the least gap that the fastest two of its bodies come to.
 fn of_a_length(model: &Model, start: &State, rule: usize, reach: f64) -> Option<String> {
-    let speed = |bodies: &[usize; 2]| apart(model, start, *bodies).1.norm();
-    let pairs = model.rules().all()[rule].pairs().take(MOST_PAIRS);
+    let speed = |two: &Joined| two.apart(model, start).1.norm();
+    let begins_within = |two: &Joined| {
+        let radii: f64 = two.bodies.iter().filter_map(|body| model.bodies[*body].solid.radius()).sum();
+        two.apart(model, start).0.norm() < reach + radii
+    };
+    // In a lattice those beside one another are in the way of all others.
+    let is_dense = model.images().is_some_and(|_| Joined::of_rule(model, rule).any(|two| begins_within(&two)));
+    let pairs = Joined::of_rule(model, rule).filter(|two| !is_dense || begins_within(two)).take(MOST_PAIRS);
     let fastest = pairs.max_by(|one, other| speed(one).total_cmp(&speed(other)))?;
-    let pair = model.pairs_between(rule, fastest).last()?;
-    let trial = TrialPair::of(model, start, &pair);
-    let gap = trial.turning_gap();
+    let pair = fastest.pairs(model).last()?;
+    let trial = TrialPair::of(model, start, &fastest, &pair);
+    let gap = trial.least_gap();
     let reference = pair.form.laws.repulsion.reference_gap;
     let [one, other] = pair.bodies.map(|body| model.name(body));
     let least = match gap {
@@ -68,17 +68,16 @@ fn of_a_length(model: &Model, start: &State, rule: usize, reach: f64) -> Option<
 /// A reach that was found, for the fastest two of its bodies, and the slowest two that are on their way to each other:
 /// it goes by the speed of the fastest, and by so many gaps, which are few where a repulsion falls slowly.
 fn of_gaps(model: &Model, start: &State, rule: usize) -> Option<String> {
-    let set = &model.rules().all()[rule];
-    let speed = |bodies: &[usize; 2]| apart(model, start, *bodies).1.norm();
-    let slower = |one: &[usize; 2], other: &[usize; 2]| speed(one).total_cmp(&speed(other));
-    let on_the_way = |bodies: &[usize; 2]| {
-        let (place, velocity) = apart(model, start, *bodies);
-        let radii: f64 = bodies.iter().filter_map(|body| model.bodies[*body].solid.radius()).sum();
+    let speed = |two: &Joined| two.apart(model, start).1.norm();
+    let slower = |one: &Joined, other: &Joined| speed(one).total_cmp(&speed(other));
+    let on_the_way = |two: &Joined| {
+        let (place, velocity) = two.apart(model, start);
+        let radii: f64 = two.bodies.iter().filter_map(|body| model.bodies[*body].solid.radius()).sum();
         place.dot(&velocity) < 0.0 && place.cross(&velocity).norm() < radii * velocity.norm()
     };
-    let pairs = || set.pairs().take(MOST_PAIRS);
-    let told = |bodies: Option<[usize; 2]>, most: f64| {
-        let pair = model.pairs_between(rule, bodies?).last()?;
+    let pairs = || Joined::of_rule(model, rule).take(MOST_PAIRS);
+    let told = |two: Option<Joined>, most: f64| {
+        let pair = two?.pairs(model).last()?;
         let change = ReachChange::of(model, start, &pair).filter(|change| change.part > most)?;
         let part = match change.part.is_finite() {
             true => format!("smaller by {} of it", significant(change.part, 2)),

@@ -1,12 +1,15 @@
-//! Energy that contacts store at the start and that dwarfs all other: bodies that begin too near are shot apart.
+//! Energy that contacts store at the start and that dwarfs all other: bodies that begin too near are shot apart, unless
+//! others hold them.
 
+use super::joined::Joined;
 use super::trial::stored;
 use crate::format::significant;
 use crate::survey::Approach;
 use gyration::body::Body;
 use gyration::contact::{ContactLaw, LawKind};
+use gyration::dynamics::{Workspace, rates};
 use gyration::model::Model;
-use gyration::neighbours::{BodyPair, Pair, Sphere, each_near};
+use gyration::neighbours::{Pair, Sphere, each_near};
 use gyration::state::{BodyMotion, State};
 use gyration::tensor::{Mat3, Vec3};
 use std::ops::ControlFlow;
@@ -16,26 +19,28 @@ use std::sync::Arc;
 const DWARFS: f64 = 1e3;
 /// The gap, in sizes, below which energy is told where there is no other to compare it with.
 const TINY: f64 = 1e-6;
+/// A force beside which what is left of all is small.
+const HELD: f64 = 0.1;
 /// Pairs whose energy is looked at.
 const MOST_PAIRS: usize = 10_000;
 
 /// What must be told of the contact that stores most.
 pub(super) fn warning(model: &Model, start: &State) -> Option<String> {
     let near = beside_one_another(model, start);
-    let pairs = near.iter().flat_map(|pair| model.pairs_between(pair.rule, pair.bodies));
-    let pairs = pairs.filter_map(|pair| Near::of_pair(model, start, &pair));
+    let pairs = near.iter().flat_map(|two| two.pairs(model).map(move |pair| (two, pair)));
+    let pairs = pairs.filter_map(|(two, pair)| Near::of_pair(model, start, two, &pair));
     let bodies = (0..model.bodies.len()).filter(|body| model.contacts_of(*body).next().is_some()).take(MOST_PAIRS);
     let planes = bodies.flat_map(|index| {
         (0..model.supports.len()).filter_map(move |support| Near::of_support(model, start, (index, support)))
     });
-    let most = pairs.chain(planes).max_by(|one, other| one.energy.total_cmp(&other.energy))?;
-    let bodies = || most.bodies.iter().flatten();
-    let other: f64 = bodies().map(|body| other_energy(model, start, *body)).sum();
-    let size = bodies().map(|body| model.bodies[*body].size).fold(f64::INFINITY, f64::min);
-    let dwarfs = if other > 0.0 { most.energy > DWARFS * other } else { most.gap < TINY * size };
-    if !dwarfs {
+    let mut found: Vec<Near> = pairs.chain(planes).collect();
+    found.sort_by(|one, other| other.energy.total_cmp(&one.energy));
+    if !found.first()?.dwarfs(model, start) {
         return None;
     }
+    let pushed = forces(model, start);
+    let most = found.iter().find(|near| !near.is_held(&pushed)).filter(|near| near.dwarfs(model, start))?;
+    let other = most.other_energy(model, start);
     let (energy, gap) = (significant(most.energy, 3), significant(most.gap, 3));
     let times = match other > 0.0 {
         true => format!(", {} times all other energy there", significant(most.energy / other, 2)),
@@ -56,8 +61,26 @@ struct Near {
     energy: f64,
 }
 
+/// The force that is left of all that acts on each body [N]; infinite where there is none, or no inertia.
+fn forces(model: &Model, start: &State) -> Vec<f64> {
+    let (mut slopes, mut powers) = (vec![0.0; model.dimension()], vec![0.0; model.works().len()]);
+    let numbers = start.numbers();
+    let found = rates(model, &mut Workspace::default(), start.time, numbers, &mut slopes, &mut powers);
+    let force = |(index, body): (usize, &Arc<Body>)| match slopes.get(model.slots(index).velocity()) {
+        Some(acceleration) if found.is_ok() && !acceleration.is_empty() => {
+            body.solid.mass.mass * Vec3::from_column_slice(acceleration).norm()
+        }
+        _ => f64::INFINITY,
+    };
+    model.bodies.iter().enumerate().map(force).collect()
+}
+
 /// The bodies that meet and are not farther apart than they are large, and some others; of very many some.
-fn beside_one_another(model: &Model, start: &State) -> Vec<BodyPair> {
+fn beside_one_another(model: &Model, start: &State) -> Vec<Joined> {
+    if model.images().is_some() {
+        let rules = 0..model.rules().all().len();
+        return rules.flat_map(|rule| Joined::of_rule(model, rule)).take(MOST_PAIRS).collect();
+    }
     let sphere = |(index, body): (usize, &Arc<Body>)| {
         let Some(radius) = body.solid.radius() else { return Sphere::NOWHERE };
         let placement = start.motion_in_space(model, index).placement;
@@ -70,7 +93,7 @@ fn beside_one_another(model: &Model, start: &State) -> Vec<BodyPair> {
         &spheres,
         |_| Some(0.0),
         |pair| {
-            found.push(pair);
+            found.push(Joined::in_space(pair.rule, pair.bodies));
             if found.len() < MOST_PAIRS { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         },
     );
@@ -78,10 +101,29 @@ fn beside_one_another(model: &Model, start: &State) -> Vec<BodyPair> {
 }
 
 impl Near {
+    /// All other energy of its bodies [J].
+    fn other_energy(&self, model: &Model, start: &State) -> f64 {
+        self.bodies.iter().flatten().map(|body| other_energy(model, start, *body)).sum()
+    }
+
+    /// Whether the energy is more than a start can mean.
+    fn dwarfs(&self, model: &Model, start: &State) -> bool {
+        let other = self.other_energy(model, start);
+        let sizes = self.bodies.iter().flatten().map(|body| model.bodies[*body].size);
+        if other > 0.0 { self.energy > DWARFS * other } else { self.gap < TINY * sizes.fold(f64::INFINITY, f64::min) }
+    }
+
+    /// Whether what else acts on its bodies holds the force that stores the energy, given what is left of all [N].
+    fn is_held(&self, left: &[f64]) -> bool {
+        // A force F ∝ d^−ν stores at most F d/(ν − 1), and ν ≥ 2.
+        let force = self.energy / self.gap;
+        self.bodies.iter().flatten().all(|body| left[*body] < HELD * force)
+    }
+
     /// A pair at the start, unless its balls are farther apart than they are large.
-    fn of_pair(model: &Model, start: &State, pair: &Pair) -> Option<Self> {
+    fn of_pair(model: &Model, start: &State, two: &Joined, pair: &Pair) -> Option<Self> {
         let bodies: [&Body; 2] = pair.bodies.map(|body| &*model.bodies[body]);
-        let motions: [BodyMotion; 2] = pair.bodies.map(|body| start.motion_in_space(model, body));
+        let motions = two.motions(model, start);
         let between = motions[0].placement.position - motions[1].placement.position;
         let reach = |end: usize| {
             let surface = bodies[end].solid.part(pair.parts[end]);

@@ -4,6 +4,7 @@
 //! They turn back where it stores ½μv² + Wd/(ν−1): v is the relative velocity of their centres, μ their reduced mass, W
 //! the weight of the lighter one, which then rests at a gap d of about that size.
 
+use super::joined::Joined;
 use crate::survey::balance::TrialGaps;
 use gyration::body::Body;
 use gyration::contact::Deformation;
@@ -28,11 +29,11 @@ pub(super) struct TrialPair<'a> {
 }
 
 impl<'a> TrialPair<'a> {
-    /// A pair of a model.
-    pub fn of(model: &'a Model, start: &State, pair: &Pair) -> Self {
+    /// A pair of the parts of two bodies of a model.
+    pub fn of(model: &'a Model, start: &State, two: &Joined, pair: &Pair) -> Self {
         let bodies = pair.bodies.map(|body| &*model.bodies[body]);
         let surfaces = [0, 1].map(|end| bodies[end].solid.part(pair.parts[end]));
-        let motions = pair.bodies.map(|body| start.motion_in_space(model, body));
+        let motions = two.motions(model, start);
         let form = PairForm::new(Arc::clone(&pair.form.laws), None, surfaces);
         Self { form, parts: pair.parts, bodies, motions, gravity: model.gravity.norm() }
     }
@@ -65,6 +66,13 @@ impl<'a> TrialPair<'a> {
         let mut motions = self.motions;
         motions[0].placement.position += (gap - self.width(normal)) * normal;
         stored((&self.form, self.parts), self.bodies, &motions).map(|loads| loads.energy)
+    }
+
+    /// The smallest gap that the two come to [m]: what they begin at, if they turn back farther out; none where nothing
+    /// brings them together.
+    pub fn least_gap(&self) -> Option<f64> {
+        let turning = self.turning_gap()?;
+        Some(self.gap().map_or(turning, |gap| gap.min(turning)))
     }
 
     /// The gap at which the two turn back [m]; none where nothing brings them together.
