@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on has failed")]
 
+mod case_absorbing_ends;
 mod case_balanced_pairs;
 mod case_bands;
 mod case_bands_relations;

@@ -80,6 +80,8 @@ quantities! {
     EulerMoment "kg m^2" "40 g cm^2";
     /// Rate of a gradient \[1/s\].
     GradientRate "1/s" "3 1/s";
+    /// Rate of decay \[1/s\].
+    DecayRate "1/s" "5 1/s";
     /// Pressure \[Pa\]: strength of repulsion and adhesion, moduli of materials.
     Pressure "Pa" "30 kPa";
     /// Damping traction per velocity \[Pa s/m\]: strength of damping and friction.

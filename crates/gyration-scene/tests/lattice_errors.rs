@@ -23,6 +23,18 @@ fn errors_of_a_lattice_stand_at_their_place() {
             "not symmetric",
             "across the diagonal",
         ),
+        (
+            format!("{CHAIN}repeat = [8, 1, 1]\nabsorb = §{{ cells = 2, rate = 5 }}"),
+            "lattice.absorb",
+            "nothing is free",
+            "periodic = false",
+        ),
+        (
+            format!("{CHAIN}repeat = [8, 1, 1]\nperiodic = false\nabsorb = {{ cells = §5, rate = 5 }}"),
+            "lattice.absorb.cells",
+            "have 10 cells together",
+            "write 4 or fewer",
+        ),
         (spring("cell = §[1, 0, 0]"), "spring.0.cell", "no `[lattice]`", "add a lattice"),
     ];
     for (lines, key, message, help) in rows {

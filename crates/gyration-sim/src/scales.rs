@@ -127,6 +127,7 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
             | Load::Potential(_)
             | Load::BodyForce(_)
             | Load::OwnFriction(_)
+            | Load::MassFriction(_)
             | Load::Fluid(..) => 0.0,
         };
         Ok::<(), Infallible>(())

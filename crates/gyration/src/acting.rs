@@ -8,7 +8,8 @@ use crate::contact::{Contact, LawKind};
 use crate::fluid::{Fluid, Inclusion};
 use crate::ledger::{Energy, Work};
 use crate::load::{
-    Applied, BodyForce, BondEnd, Couple, InteractionEnd, LinearResistance, Loads, OwnFriction, Potential, SpringEnd,
+    Applied, BodyForce, BondEnd, Couple, InteractionEnd, LinearResistance, Loads, MassFriction, OwnFriction, Potential,
+    SpringEnd,
 };
 use crate::neighbours::Pair;
 use crate::pair::{PairLaws, PairLoads, PairSlopes};
@@ -87,6 +88,8 @@ pub enum Load<'a> {
     BodyForce(&'a BodyForce),
     /// Friction that changes with the place of the body and with time.
     OwnFriction(&'a OwnFriction),
+    /// Friction in proportion to the mass.
+    MassFriction(&'a MassFriction),
     /// The fluid around an inclusion.
     Fluid(&'a Fluid, &'a Inclusion),
 }
@@ -141,6 +144,9 @@ impl<'a> Load<'a> {
         for friction in &body.own.frictions {
             each(Self::OwnFriction(friction))?;
         }
+        if let Some(absorption) = &body.own.absorption {
+            each(Self::MassFriction(absorption))?;
+        }
         if let (Some(fluid), Some(inclusion)) = (fluid, &body.inclusion) {
             each(Self::Fluid(fluid, inclusion))?;
         }
@@ -158,6 +164,7 @@ impl<'a> Load<'a> {
             | Self::Potential(_)
             | Self::BodyForce(_)
             | Self::OwnFriction(_)
+            | Self::MassFriction(_)
             | Self::Fluid(..) => true,
         }
     }
@@ -179,7 +186,7 @@ impl<'a> Load<'a> {
             Self::Spring(end) if end.interaction.law.damping > 0.0 => vec![Work::Load],
             Self::Bond(end) if end.interaction.works() => vec![Work::Load],
             Self::Couple(_) | Self::Applied(_) | Self::BodyForce(_) => vec![Work::Load],
-            Self::OwnFriction(_) => vec![Work::Viscosity],
+            Self::OwnFriction(_) | Self::MassFriction(_) => vec![Work::Viscosity],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
             Self::Fluid(..) => vec![Work::Fluid],
             Self::Potential(potential) if !potential.is_energy() => vec![Work::Load],
@@ -203,6 +210,7 @@ impl<'a> Load<'a> {
             | Self::Resistance(_)
             | Self::BodyForce(_)
             | Self::OwnFriction(_)
+            | Self::MassFriction(_)
             | Self::Fluid(..) => None,
         }
     }

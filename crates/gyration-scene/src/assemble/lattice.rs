@@ -1,5 +1,6 @@
 //! The cells of a lattice: what one cell holds becomes what all cells of a run hold, or those that bands are of.
 
+use super::absorb::{Absorbers, AbsorbingEnds};
 use super::body::AssembledBody;
 use crate::check::Reporter;
 use crate::file::{self, Relaxed};
@@ -24,6 +25,8 @@ pub(super) struct Cells {
     repeat: [u32; 3],
     /// Whether the last is beside the first.
     periodic: [bool; 3],
+    /// What swallows waves at free ends.
+    absorbing: Option<AbsorbingEnds>,
     /// Whether granules seek their rest.
     pub relaxes: bool,
     /// Under which load cell vectors seek theirs too.
@@ -105,7 +108,11 @@ impl Cells {
         }
         let relaxes = !written.relax.is_empty();
         let load = load(written, &key, reporter);
-        Some(Self { lattice, repeat, periodic, relaxes, load })
+        let directions: [Option<u32>; 3] =
+            std::array::from_fn(|a| (a < count && !periodic[a] && repeat[a] > 1).then_some(repeat[a]));
+        let absorb = written.absorb.as_ref();
+        let absorbing = absorb.and_then(|written| AbsorbingEnds::of(written, directions, &key, reporter));
+        Some(Self { lattice, repeat, periodic, absorbing, relaxes, load })
     }
 
     /// Those of which bands are: one along what is periodic.
@@ -114,10 +121,11 @@ impl Cells {
         Self { repeat, ..self.clone() }
     }
 
-    /// Those of which the waves of a start are: one along directions in which the lattice has no ends.
+    /// Those of which the waves of a start are: one along directions in which the lattice has no ends, and none that
+    /// absorbs them.
     pub fn endless(&self, endless: [bool; 3]) -> Self {
         let repeat = std::array::from_fn(|a| if endless[a] { 1 } else { self.repeat[a] });
-        Self { repeat, periodic: endless, ..self.clone() }
+        Self { repeat, periodic: endless, absorbing: None, ..self.clone() }
     }
 
     /// How many there are along each vector.
@@ -183,16 +191,23 @@ impl Cells {
     /// The bodies of all cells; those of one cell keep their names.
     pub fn bodies(&self, of_cell: &[AssembledBody]) -> Vec<AssembledBody> {
         let count = self.count();
-        let copies = of_cell.iter().flat_map(|body| {
-            (0..count).map(|cell| {
+        let absorption: Vec<f64> = match &self.absorbing {
+            None => vec![0.0; count],
+            Some(ends) => self.all().map(|cell| ends.rate(cell)).collect(),
+        };
+        let mut copies = Vec::with_capacity(of_cell.len() * count);
+        for body in of_cell {
+            let mut absorbing = Absorbers::default();
+            copies.extend(absorption.iter().enumerate().map(|(cell, rate)| {
                 let mut copy = body.clone();
+                copy.body = absorbing.of(&body.body, *rate);
                 if count > 1 {
                     copy.name = format!("{}-{cell}", body.name);
                 }
                 copy
-            })
-        });
-        copies.collect()
+            }));
+        }
+        copies
     }
 
     /// Where the cells of all bodies are [m].

@@ -2,6 +2,7 @@
 //!
 //! Everything is in SI units from here on. What is wrong with a body is noted at its keys, and the others go on.
 
+mod absorb;
 mod affine;
 mod body;
 mod bond;

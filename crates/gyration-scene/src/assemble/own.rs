@@ -60,7 +60,7 @@ impl OwnForcesWritten {
         if reader.fails {
             return None;
         }
-        let forces = OwnForces { potential, body_force: None, resistance, frictions };
+        let forces = OwnForces { potential, body_force: None, resistance, frictions, absorption: None };
         Some(Self { forces, frictions: keys, field, body: key.clone(), has_shape: value.shape.is_some() })
     }
 

@@ -1,7 +1,7 @@
 //! `[lattice]`: the bodies of the scene are what one cell holds.
 
 use super::contractile::OneOrMany;
-use crate::quantity::{Energy, Length, Positive};
+use crate::quantity::{DecayRate, Energy, Length, NonNegative, Positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -30,6 +30,22 @@ pub struct Lattice {
     /// Waves with which a run starts, one or several.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wave: Option<OneOrMany<LatticeWave>>,
+    /// What swallows waves at the free ends of a run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub absorb: Option<AbsorbingEnds>,
+}
+
+/// Friction in proportion to the mass in the last cells before each free end: γ = γ₁ (i/n)^p in the i-th of n.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AbsorbingEnds {
+    /// n, how many cells of each end have it.
+    pub cells: CellCount,
+    /// γ₁, that of the last cell (1/s).
+    pub rate: Positive<DecayRate>,
+    /// p, how it grows towards the end.
+    #[serde(default = "cubic")]
+    pub power: NonNegative<f64>,
 }
 
 /// A wave, a packet of waves, or all waves at random phases.
@@ -99,6 +115,10 @@ pub enum Relaxed {
 
 fn once() -> [CellCount; 3] {
     [CellCount(1.0); 3]
+}
+
+fn cubic() -> NonNegative<f64> {
+    NonNegative(3.0)
 }
 
 fn periodic() -> OneOrMany<bool> {

@@ -28,7 +28,9 @@ pub use bond::{Bond, BondDamping};
 pub use contact::{Adhesion, Contact, Measure, Reach, Repulsion, Resistance};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
 pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
-pub use lattice::{BranchNumber, CellCount, CellOffset, Lattice, LatticeWave, RandomWaves, Relaxed, Seed};
+pub use lattice::{
+    AbsorbingEnds, BranchNumber, CellCount, CellOffset, Lattice, LatticeWave, RandomWaves, Relaxed, Seed,
+};
 pub use material::{
     Fung, Hencky, Material, MooneyRivlin, NeoHookean, NeoHookeanLog, Ogden, Orthogonality, StVenantKirchhoff,
 };

@@ -94,7 +94,7 @@ fn material_in_words(material: &Material) -> String {
 }
 
 fn own_forces(body: &Body) -> Vec<String> {
-    let OwnForces { potential, body_force, resistance, frictions } = &body.own;
+    let OwnForces { potential, body_force, resistance, frictions, absorption } = &body.own;
     let potential = potential.as_ref().map(|potential| match potential.is_energy() {
         true => "potential".to_owned(),
         false => "potential that changes in time".to_owned(),
@@ -108,7 +108,8 @@ fn own_forces(body: &Body) -> Vec<String> {
     });
     let constant = resistance.as_ref().map(|_| "linear friction".to_owned());
     let varying = (!frictions.is_empty()).then(|| "linear friction that changes with place or time".to_owned());
-    [potential, body_force, constant, varying].into_iter().flatten().collect()
+    let absorption = absorption.map(|it| format!("absorption, rate {} 1/s", significant(it.rate, 5)));
+    [potential, body_force, constant, varying, absorption].into_iter().flatten().collect()
 }
 
 fn loads(affine: &Affine) -> Vec<String> {

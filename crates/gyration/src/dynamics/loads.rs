@@ -118,6 +118,11 @@ impl Acting {
                 self.powers[Work::Viscosity] += loads.power(&velocity.velocity, &velocity.gradient_rate);
                 self.total += loads;
             }
+            Load::MassFriction(friction) => {
+                let loads = friction.loads(&at.body.solid.mass, velocity);
+                self.powers[Work::Viscosity] += loads.power(&velocity.velocity, &velocity.gradient_rate);
+                self.total += loads;
+            }
             Load::Fluid(..) => {
                 let Some(loads) = fluid(at)? else { return Ok(()) };
                 self.powers[Work::Fluid] += loads.power(&velocity.velocity, &velocity.gradient_rate);
@@ -189,6 +194,9 @@ pub(super) fn add_slopes(
             let added = slopes.add_own_friction(friction, place, &at.inverse(), velocity, &mut scratch.formulas);
             added.map_err(undefined(at, FormulaOf::Friction))?;
         }
+        Load::MassFriction(friction) => {
+            slopes.add_mass_friction(friction, &at.body.solid.mass, &at.motion.velocity);
+        }
         Load::Fluid(..) => {
             if let (Some(gyration), Some(immersed)) = (at.gyration(), immersion(at)?) {
                 immersed.add_to(slopes, gyration);
@@ -231,6 +239,7 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                 | Load::Resistance(_)
                 | Load::BodyForce(_)
                 | Load::OwnFriction(_)
+                | Load::MassFriction(_)
                 | Load::Fluid(..) => 0.0,
             };
         }

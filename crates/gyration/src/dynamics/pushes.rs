@@ -69,7 +69,12 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
                 let force = loads.map_err(undefined(at, FormulaOf::BodyForce))?.force.norm();
                 each(Push { force, gap: at.body.size, rounding: 0.0 });
             }
-            Load::Couple(_) | Load::Applied(_) | Load::Resistance(_) | Load::OwnFriction(_) | Load::Fluid(..) => {}
+            Load::Couple(_)
+            | Load::Applied(_)
+            | Load::Resistance(_)
+            | Load::OwnFriction(_)
+            | Load::MassFriction(_)
+            | Load::Fluid(..) => {}
         }
         Ok(())
     })

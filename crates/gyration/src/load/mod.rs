@@ -1,5 +1,6 @@
 //! Loads on a body: the force f and the affine moment M = ∫ q ⊗ (X − X₀), those of springs at material points, of
-//! bonds, of couples, of friction that is linear in the velocity, those of formulas, and what a controller applies.
+//! bonds, of couples, of friction that is linear in the velocity, in proportion to the mass, those of formulas, and
+//! what a controller applies.
 //!
 //! f [N] is spatial; M [N m] has its first index spatial, its second material, so that its power is M·Ṗ. A force F at a
 //! material point adds F to f and F ⊗ X to M. Source: `docs/theory-affine.md`.
@@ -10,6 +11,7 @@ mod bond;
 mod couple;
 mod formula;
 mod interactions;
+mod mass_friction;
 mod own;
 mod own_friction;
 mod potential;
@@ -27,6 +29,7 @@ pub use bond::{
 pub use couple::Couple;
 pub use formula::{Formula, PLACE_NAMES};
 pub use interactions::{Interaction, InteractionEnd, Interactions, Party};
+pub use mass_friction::MassFriction;
 pub use own::OwnForces;
 pub use own_friction::{FrictionEntry, FrictionFault, FrictionMatrix, OwnFriction};
 pub use potential::Potential;

@@ -1,6 +1,6 @@
 //! The forces that a scene writes for one body, as formulas of its place and of time.
 
-use super::{BodyForce, LinearResistance, OwnFriction, Potential};
+use super::{BodyForce, LinearResistance, MassFriction, OwnFriction, Potential};
 
 /// Forces of a body's own.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -13,6 +13,8 @@ pub struct OwnForces {
     pub resistance: Option<Box<LinearResistance>>,
     /// Frictions whose matrices change with place or time.
     pub frictions: Vec<OwnFriction>,
+    /// By which a free end of a lattice absorbs waves.
+    pub absorption: Option<MassFriction>,
 }
 
 impl OwnForces {

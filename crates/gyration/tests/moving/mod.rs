@@ -13,8 +13,8 @@ use gyration::dynamics::{Workspace, rates};
 use gyration::fluid::{FixedForm, Fluid, Form, History, Inclusion};
 use gyration::kinematics::Placement;
 use gyration::load::{
-    Applied, BodyForce, Couple, FieldOfForce, Formula, Frame, FrictionEntry, FrictionMatrix, LinearResistance, Mat12,
-    OwnForces, OwnFriction, Potential, Spring, SpringLaw,
+    Applied, BodyForce, Couple, FieldOfForce, Formula, Frame, FrictionEntry, FrictionMatrix, LinearResistance,
+    MassFriction, Mat12, OwnForces, OwnFriction, Potential, Spring, SpringLaw,
 };
 use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
 use gyration::model::Model;
@@ -197,6 +197,7 @@ pub fn with_own_forces(model: Model) -> Model {
             frictions: std::iter::once(OwnFriction::new(scaled, Frame::Body))
                 .chain((index % 3 == 0).then(by_entries))
                 .collect(),
+            absorption: Some(MassFriction { rate: 0.7 }),
         };
         Body { own, ..(**body).clone() }
     };

@@ -43,6 +43,7 @@ pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usiz
             | Load::Potential(_)
             | Load::BodyForce(_)
             | Load::OwnFriction(_)
+            | Load::MassFriction(_)
             | Load::Fluid(..) => {
                 return Ok(());
             }
