@@ -172,3 +172,16 @@ fn errors_of_body_forces_and_frictions_stand_at_their_place() {
                 mass_properties = { mass = 1, euler_tensor = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }\n";
     assert_error(&format!("{TIME}{bare}"), "body.b.body_force", "no shape over which", "potential");
 }
+
+#[test]
+fn bodies_that_differ_in_their_forces_alone_keep_their_own() {
+    // Symptom: of bodies alike in shape, mass and kind all felt the forces of the first.
+    let other = BALL.replace("name = \"ball\"", "name = \"other\"");
+    let scene = scene(&format!("potential = \"3*x\"\n{other}potential = \"5*x\""), &[]);
+    let force = |body: usize| {
+        let potential = scene.built().model.bodies[body].own.potential.as_ref().unwrap();
+        let place = Placement { position: Vec3::zeros(), gradient: Mat3::identity() };
+        potential.loads(&place, 0.0, &mut Scratch::default()).unwrap().force.x
+    };
+    assert_eq!([0, 1].map(force), [-3.0, -5.0]);
+}

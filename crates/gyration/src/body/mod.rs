@@ -195,12 +195,14 @@ pub const NEAR: f64 = 1e-5;
 impl Body {
     /// Whether another of the same solid is equal, so that one may stand for both; a pinned one has a place of its own.
     pub fn can_stand_for(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.solid, &other.solid)
-            && self.kind == other.kind
-            && self.pin.is_none()
+        let Self { solid, kind, size, pin, inclusion, own } = self;
+        Arc::ptr_eq(solid, &other.solid)
+            && *kind == other.kind
+            && pin.is_none()
             && other.pin.is_none()
-            && self.inclusion == other.inclusion
-            && self.size == other.size
+            && *inclusion == other.inclusion
+            && *size == other.size
+            && *own == other.own
     }
 
     /// Whether a smallest gap [m] to a support is above zero by more than its own rounding.
