@@ -13,6 +13,7 @@ mod case_contracting_box;
 mod case_contraction_modes;
 mod case_deforming_inclusion;
 mod case_gallery_dissipates;
+mod case_guides;
 mod case_kept_through_partings;
 mod case_own_forces;
 mod case_pinned_audit;

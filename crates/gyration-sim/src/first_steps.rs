@@ -183,5 +183,5 @@ fn is_alone(model: &Model, index: usize) -> bool {
         _ => Err(()),
     };
     let body = &model.bodies[index];
-    body.pin.is_none() && body.has_inertia() && model.try_each_load(index, between).is_ok()
+    body.pin.is_none() && body.guide.is_none() && body.has_inertia() && model.try_each_load(index, between).is_ok()
 }

@@ -1,7 +1,8 @@
-//! Puts a state back to where the equations keep it: |q| = 1, det P = 1 and tr L = 0, det G where it is kept.
+//! Puts a state back to where the equations keep it: what a guide keeps, |q| = 1, det P = 1 and tr L = 0, det G where
+//! it is kept.
 
 use gyration::affine::AffineBody;
-use gyration::body::{BodyKind, Contractile, Slots, matrix};
+use gyration::body::{Body, BodyKind, Contractile, Slots, matrix};
 use gyration::extended;
 use gyration::ledger::Work;
 use gyration::model::Model;
@@ -18,6 +19,9 @@ pub(crate) fn project(model: &Model, t: f64, y: ExtendedMut, w: &mut [f64]) -> f
     let mut correction: f64 = 0.0;
     for (index, body) in model.bodies.iter().enumerate() {
         let slots = model.slots(index);
+        if body.guide.is_some() {
+            restore_guided(body, slots, y, low);
+        }
         let (size, energy) = match &body.kind {
             BodyKind::Rigid(_) => {
                 let quaternion = slots.attitude();
@@ -33,6 +37,18 @@ pub(crate) fn project(model: &Model, t: f64, y: ExtendedMut, w: &mut [f64]) -> f
         }
     }
     correction
+}
+
+/// Puts a body back to what its motion is kept to, whose numbers have no digits beyond their own.
+pub(crate) fn restore_guided(body: &Body, slots: &Slots, y: &mut [f64], low: &mut [f64]) {
+    if let Some(lacking) = low.get_mut(slots.places().start..slots.velocities().end) {
+        lacking.fill(0.0);
+    }
+    let (_, own) = y.split_at_mut(slots.position().start);
+    let (position, own) = own.split_at_mut(slots.position().len());
+    let (attitude, own) = own.split_at_mut(slots.attitude().len());
+    let (velocity, own) = own.split_at_mut(slots.velocity().len());
+    body.restore_guided([position, attitude, velocity, &mut own[..slots.rate().len()]]);
 }
 
 /// Puts a quaternion back to length one, by a factor: its direction keeps all its digits, those in `low` too, if there

@@ -35,6 +35,7 @@ fn bare(shape: Shape, density: f64) -> Body {
         inclusion: None,
         own: Default::default(),
         pin: None,
+        guide: None,
     }
 }
 

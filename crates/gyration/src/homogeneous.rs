@@ -3,12 +3,13 @@
 //!   K = P J Ṗᵀ,   K_o = K + (p₀ − o) ⊗ m ṗ₀,   N = P Mᵀ,   Ω = Ṗ P⁻¹,   power tr(N Ω)
 //!   dK/dt = Ṗ J Ṗᵀ + N − V (S Pᵀ)ᵀ,   S Pᵀ symmetric
 //!
-//! M is that of all loads, about the centre of mass or the pin, and so is J. The mean stress of a rigid body is the one
+//! M is that of all loads, about the centre of mass or the pin, and so is J; the balance takes the reaction of a guide
+//! with it. The mean stress of a rigid body is the one
 //! that its balance asks for, S = (M − P̈ J)/V: its S Pᵀ is then symmetric as well. Source: Sławianowski (1975),
 //! 2.7–3.9; `docs/theory-affine.md`.
 
 use crate::body::{Body, Slots};
-use crate::dynamics::{Acting, ContractileMotion, Scratch, affine_balance, body_rates, moment};
+use crate::dynamics::{Acting, ContractileMotion, Scratch, affine_balance, body_rates, moment, reaction};
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, KindAt};
 use crate::tensor::{Mat3, Polar, Vec3, cross_matrix};
@@ -50,7 +51,7 @@ pub fn observe_homogeneous(
 ) -> Result<HomogeneousObservation, Inadmissible> {
     let (body, motion) = (at.body, at.motion);
     let (p, rate) = (&motion.placement.gradient, &motion.velocity.gradient_rate);
-    let Interior { euler_tensor, moment, acceleration, stress } = Interior::of(at, acting, scratch)?;
+    let Interior { euler_tensor, moment, balanced, acceleration, stress } = Interior::of(at, acting, scratch)?;
     let polar = Polar::of(p);
     let inverse = p.try_inverse().unwrap_or(Mat3::from_element(f64::NAN));
     let velocity_gradient = rate * inverse;
@@ -67,7 +68,11 @@ pub fn observe_homogeneous(
         comoving_affine_momentum: body.solid.mass.euler_tensor * (inverse * rate).transpose(),
         affine_moment,
         moment_power: affine_moment.dot(&velocity_gradient.transpose()),
-        momentum_residual: residual(body, &(p * euler_tensor * acceleration.transpose() - affine_moment), &tension),
+        momentum_residual: residual(
+            body,
+            &(p * euler_tensor * acceleration.transpose() - p * balanced.transpose()),
+            &tension,
+        ),
         principal_stretches: stretches.into(),
         rotation: polar.rotation,
         stress,
@@ -84,6 +89,8 @@ fn residual(body: &Body, unbalanced: &Mat3, tension: &Mat3) -> Mat3 {
 struct Interior {
     euler_tensor: Mat3,
     moment: Mat3,
+    /// With the reaction of a guide.
+    balanced: Mat3,
     acceleration: Mat3,
     stress: Mat3,
 }
@@ -92,6 +99,7 @@ impl Interior {
     fn of(at: &BodyAt, acting: &Acting, scratch: &mut Scratch) -> Result<Self, Inadmissible> {
         let loads = &acting.total;
         let moment = moment(at, loads);
+        let balanced = reaction(at, acting, scratch)?.map_or(moment, |reaction| moment + reaction.moment);
         // P̈ takes nothing of a body without inertia.
         let inertial = |acceleration| if at.body.has_inertia() { acceleration } else { Mat3::zeros() };
         let (euler_tensor, acceleration, stress) = match at.kind() {
@@ -106,10 +114,10 @@ impl Interior {
             KindAt::Rigid(_, turn) => {
                 let acceleration = inertial(rigid_acceleration(at, &turn.spin, scratch)?);
                 let euler_tensor = euler_tensor(at.body);
-                (euler_tensor, acceleration, (moment - acceleration * euler_tensor) / at.body.solid.mass.volume)
+                (euler_tensor, acceleration, (balanced - acceleration * euler_tensor) / at.body.solid.mass.volume)
             }
         };
-        Ok(Self { euler_tensor, moment, acceleration, stress })
+        Ok(Self { euler_tensor, moment, balanced, acceleration, stress })
     }
 }
 

@@ -49,11 +49,19 @@ pub fn bodies_of(shape: &Shape) -> Vec<Body> {
     bodies
 }
 
+fn vector(seed: f64) -> Vec3 {
+    Vec3::new(seed.sin(), (2.0 * seed).cos(), (3.0 * seed).sin())
+}
+
+/// How a body starts to be turned, before it is strained.
+pub fn orientation(seed: f64) -> Quaternion {
+    Quaternion::from_axis_angle(&vector(seed + 0.8), 0.9 + seed)
+}
+
 /// A start that no symmetry makes simple; the constraints hold.
 fn start(body: &Body, seed: f64, place: Vec3) -> Start {
-    let vector = |seed: f64| Vec3::new(seed.sin(), (2.0 * seed).cos(), (3.0 * seed).sin());
     let (position, velocity) = (place + 0.1 * vector(seed), vector(seed + 0.4));
-    let orientation = Quaternion::from_axis_angle(&vector(seed + 0.8), 0.9 + seed);
+    let orientation = orientation(seed);
     match body.affine() {
         None => RigidStart { position, orientation, velocity, angular_velocity: vector(seed + 1.2) }.into(),
         Some(affine) => {
@@ -80,7 +88,7 @@ fn ring(bodies: usize, laws: [SpringLaw; 2]) -> Vec<Spring> {
 }
 
 /// The model on supports and anchors, whose bodies are joined by such springs too.
-fn joined(model: Model, laws: [SpringLaw; 2]) -> Model {
+pub fn joined(model: Model, laws: [SpringLaw; 2]) -> Model {
     let model = attached(model, [6.0, 5.0, 4.0, 3.0], AreaMeasure::DeformedArea);
     let springs = model.springs().iter().copied().chain(ring(model.bodies.len(), laws)).collect();
     model.with_springs(springs)

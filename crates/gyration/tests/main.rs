@@ -14,6 +14,7 @@ mod deformed;
 mod deformed_moments;
 mod deformed_relations;
 mod facet_moments;
+mod guides;
 mod mass;
 mod materials;
 mod moving;

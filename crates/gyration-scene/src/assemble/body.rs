@@ -1,7 +1,8 @@
-//! A body: shape, mass, surface about the centre of mass, kind, springs, pin, and how it starts.
+//! A body: shape, mass, surface about the centre of mass, kind, springs, pin, guide, and how it starts.
 
 use super::context::SceneContext;
 use super::fluid::ImmersedBody;
+use super::guide::guide;
 use super::kind::WrittenDeformation;
 use super::mass::{MassSource, lone_point, size};
 use super::own::OwnForcesWritten;
@@ -58,9 +59,10 @@ impl AssembledBody {
         let kind = deforming.kind(placed, &mass, shape.surface().is_some(), reporter);
         let arm = value.pin.as_ref().map(si);
         near(arm.as_ref(), &shape, key, reporter);
-        let kind = kind?;
+        let mut kind = kind?;
         let inclusion = ImmersedBody { placed, shape: &shape, mass: &mass, kind: &kind }.inclusion(context, reporter);
-        let start = attitude?.start(placed, &kind, reporter)?;
+        let mut start = attitude?.start(placed, &kind, reporter)?;
+        let guide = guide(placed, &mut kind, &mut start, reporter)?;
         let place = placement(&start);
         let springs = springs(placed, &place, reporter);
         if kind == BodyKind::Rigid(RigidInertia::POINT) {
@@ -72,6 +74,7 @@ impl AssembledBody {
             size: size(&shape, &mass, &arm.unwrap_or_default()),
             solid: solids.share(shape, mass),
             pin: arm.map(|point| Pin { point, anchor: place.place(&point) }),
+            guide,
             inclusion: inclusion?,
             own,
         };

@@ -196,7 +196,7 @@ fn terms(p: &Mat3) -> f64 {
 }
 
 /// A matrix as a scene has it, with all its digits.
-fn rows(matrix: &Mat3) -> String {
+pub(super) fn rows(matrix: &Mat3) -> String {
     let row = |index: usize| {
         let [x, y, z] = [0, 1, 2].map(|column| matrix[(index, column)]);
         format!("[{x:?}, {y:?}, {z:?}]")

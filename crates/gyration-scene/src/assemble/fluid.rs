@@ -182,6 +182,7 @@ impl ImmersedBody<'_> {
             ),
             (sphere && !centered, "the centre of mass is not that of the sphere", "give it a `density` or a `mass`"),
             (self.placed.value.pin.is_some(), "the body is pinned", "leave out one of `pin` and `history`"),
+            (self.placed.value.keep.is_some(), "the body has a `keep`", "leave out one of `keep` and `history`"),
             (
                 context.fluid.is_some_and(|[_, density]| density == 0.0),
                 "the history of the flow is its inertia, and the fluid has no density",

@@ -11,6 +11,7 @@ mod contact;
 mod context;
 mod contractile;
 mod fluid;
+mod guide;
 mod images;
 mod kind;
 mod lattice;

@@ -1,6 +1,6 @@
 //! `[[body]]`: what moves.
 
-use super::{Affine, Contractile, Entry, Inclusion, LinearFriction, OneOrMany, Orientation, Shape};
+use super::{Affine, Contractile, Entry, Inclusion, Keep, LinearFriction, OneOrMany, Orientation, Shape};
 use crate::quantity::{
     AngularVelocity, AnyQuantity, Density, EulerMoment, GradientRate, Length, Mass, NonNegative, Positive,
     SpringDamping, Stiffness, Velocity,
@@ -64,6 +64,9 @@ pub struct Body {
     /// A point of the body, relative to the centre of mass in the body's axes, that stays where it starts (m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pin: Option<[Length; 3]>,
+    /// What its motion is kept to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub keep: Option<Keep>,
     /// Springs between points of the body and points of space.
     #[serde(default)]
     pub spring: Vec<Spring>,

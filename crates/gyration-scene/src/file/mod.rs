@@ -10,6 +10,7 @@ mod bond;
 mod contact;
 mod contractile;
 mod fluid;
+mod keep;
 mod lattice;
 mod material;
 mod orientation;
@@ -28,6 +29,7 @@ pub use bond::{Bond, BondDamping};
 pub use contact::{Adhesion, Contact, Measure, Reach, Repulsion, Resistance};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
 pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
+pub use keep::Keep;
 pub use lattice::{
     AbsorbingEnds, BranchNumber, CellCount, CellOffset, Lattice, LatticeWave, RandomWaves, Relaxed, Seed,
 };

@@ -46,4 +46,8 @@ pub enum Recorded {
     PairForce,
     /// p₀ less that of the scene at rest (m).
     Displacement,
+    /// The force of `keep` on the centre of mass (N).
+    ConstraintForce,
+    /// N = P Mᵀ, the affine moment of `keep` (N m).
+    ConstraintMoment,
 }

@@ -48,11 +48,11 @@ impl StepEnd {
         Self { motion, acceleration, stretching }
     }
 
-    /// |f| of the contacts [N]; none where a pin or another load takes a part of the weight.
+    /// |f| of the contacts [N]; none where a pin, a guide or another load takes a part of the weight.
     pub fn contact_force(&self, model: &Model, index: usize) -> Option<f64> {
         let body = &model.bodies[index];
         let alone = |load: Load| if load.pulls() { Err(()) } else { Ok(()) };
-        let alone = model.try_each_load(index, alone).is_ok() && body.pin.is_none();
+        let alone = model.try_each_load(index, alone).is_ok() && body.pin.is_none() && body.guide.is_none();
         alone.then(|| body.solid.mass.mass * (self.acceleration - model.gravity).norm())
     }
 }

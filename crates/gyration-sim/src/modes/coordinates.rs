@@ -5,7 +5,8 @@
 //! with M the mass of the velocities' numbers: m and J ⊗ 1 of (ṗ₀ | Ṗ), m and I of (ṗ₀ | Ω). So accelerations are
 //! forces, and −V† (∂v̇/∂q) S, −V† (∂v̇/∂v) V are stiffness and resistance. Of a rigid body S takes δθ to the
 //! quaternion, δq = ½ q ∘ (0, δθ): what is left out is its length, a gauge. An incompressible body moves within tr(P⁻¹
-//! δP) = 0: V is multiplied by a basis of that plane.
+//! δP) = 0: V is multiplied by a basis of that plane. A guide leaves the image of M^½ Π M^−½, which is multiplied in
+//! the same way.
 
 use super::shape::ModeShape;
 use gyration::body::{Body, BodyKind, Slots};
@@ -49,6 +50,10 @@ impl Coordinates {
             // A point has no turns.
             true => (DMatrix::identity(6, 3) / root, DMatrix::identity(3, 6) * root),
         };
+        if let Some(within) = body.guided_velocities() {
+            let space = image(&weights * within * &rates);
+            (rates, weights) = (rates * &space, space.transpose() * weights);
+        }
         let gradient = BodyMotion::read(body, &Slots::of(body, 0), block).placement.gradient;
         let keeps_volume = body.affine().is_some_and(|affine| affine.interior.is_incompressible());
         if keeps_volume && !body.contraction().is_some_and(takes_up_volume) {
@@ -187,6 +192,13 @@ fn volume_slope(gradient: &Mat3, size: usize) -> DVector<f64> {
     let mut slope = DVector::zeros(size);
     slope.rows_mut(size - 9, 9).copy_from_slice(cofactor(gradient).as_slice());
     slope
+}
+
+/// An orthonormal basis of the image of an orthogonal projector.
+fn image(projector: DMatrix<f64>) -> DMatrix<f64> {
+    let eigen = projector.symmetric_eigen();
+    let kept: Vec<_> = (0..eigen.eigenvalues.len()).filter(|k| eigen.eigenvalues[*k] > 0.5).collect();
+    eigen.eigenvectors.select_columns(&kept)
 }
 
 /// An orthonormal basis of the plane across a vector: all columns but the last of the reflection that takes it to the

@@ -2,7 +2,7 @@
 //! the start; contractions are held, or move by their laws.
 
 use super::slopes::SystemSlopes;
-use crate::projection::normalize;
+use crate::projection::{normalize, restore_guided};
 use gyration::balance::observe;
 use gyration::body::{Body, BodyKind, Slots, matrix};
 use gyration::contact::{Action, Term};
@@ -180,10 +180,12 @@ impl FrozenSystem {
         contacts.map(|contact| contact.support)
     }
 
-    /// The normals of the supports that push or pull.
+    /// The normals of the supports that push or pull, and the directions in which guides keep centres.
     pub fn normals(&self) -> Vec<Vec3> {
         let holding = (0..self.count()).flat_map(|body| self.holding(body));
-        holding.map(|support| self.model.supports[support].normal).collect()
+        let guides = self.model.bodies.iter().filter_map(|body| body.guide.as_ref()?.center);
+        let kept = guides.flat_map(|center| (0..3).map(move |axis| Vec3::ith(axis, 1.0) - center.column(axis)));
+        holding.map(|support| self.model.supports[support].normal).chain(kept).collect()
     }
 
     /// The smallest distances of each body to the supports that push or pull at it, then the smallest slab between it
@@ -215,6 +217,9 @@ impl FrozenSystem {
     pub fn project(&self, numbers: &mut [f64]) {
         for (body, kind) in self.model.bodies.iter().map(|body| &body.kind).enumerate() {
             let slots = self.slots(body);
+            if self.model.bodies[body].guide.is_some() {
+                restore_guided(&self.model.bodies[body], slots, numbers, &mut []);
+            }
             let own = matches!(kind, BodyKind::Contractile(it) if it.contraction.is_driven())
                 .then(|| matrix(&numbers[slots.extra()]));
             let attitude = &mut numbers[slots.attitude()];

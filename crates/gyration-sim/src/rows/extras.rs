@@ -1,11 +1,11 @@
 //! Quantities that are recorded on request.
 
-use super::fields::{BodyField, EXTRA_FIELDS, OF_CONTACTS, OF_PLACES};
+use super::fields::{BodyField, EXTRA_FIELDS, OF_CONTACTS, OF_GUIDES, OF_PLACES};
 use gyration::tensor::Vec3;
 use gyration_scene::Recorded;
 
 /// How many of the fields are of homogeneous strain.
-const OF_STRAIN: usize = EXTRA_FIELDS.len() - OF_CONTACTS - OF_PLACES;
+const OF_STRAIN: usize = EXTRA_FIELDS.len() - OF_CONTACTS - OF_PLACES - OF_GUIDES;
 
 /// A set of quantities recorded on request; the words of the scene stand in the order of the fields.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -44,7 +44,12 @@ impl Extras {
 
     /// Whether displacements are asked for.
     pub(super) fn are_of_places(&self) -> bool {
-        self.asked[OF_STRAIN + OF_CONTACTS..].contains(&true)
+        self.asked[OF_STRAIN + OF_CONTACTS..][..OF_PLACES].contains(&true)
+    }
+
+    /// Whether the force of guides is asked for.
+    pub(super) fn are_of_guides(&self) -> bool {
+        self.asked[OF_STRAIN + OF_CONTACTS + OF_PLACES..].contains(&true)
     }
 
     pub(super) fn fields(&self) -> impl Iterator<Item = &'static BodyField> + use<> {

@@ -36,8 +36,19 @@ pub(super) struct BodyContext<'a> {
     pub contacts: Option<&'a ContactParts>,
     /// Where it was asked for, and a rest is known.
     pub displacement: Option<Vec3>,
+    /// Where it was asked for, of a body with a guide.
+    pub reaction: Option<&'a Reaction>,
     /// If it is immersed in a fluid.
     pub immersed: Option<&'a ImmersionObservation>,
+}
+
+/// How a guide keeps a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Reaction {
+    /// The force on its centre \[N\].
+    pub force: Vec3,
+    /// N = P Mᵀ \[N m\].
+    pub moment: Mat3,
 }
 
 pub(super) enum FieldValue {
@@ -182,7 +193,7 @@ macro_rules! extra {
 
 /// The fields that are recorded on request, in the order of `gyration_scene::Recorded`.
 #[rustfmt::skip]
-pub(super) static EXTRA_FIELDS: [BodyField; 14] = [
+pub(super) static EXTRA_FIELDS: [BodyField; 16] = [
     extra!(homogeneous, "velocity_gradient", "1/s", "velocity gradient L = Pdot P^-1", Matrix, velocity_gradient, NO_MATRIX),
     extra!(homogeneous, "affine_momentum_total", "kg m2/s", "affine momentum about the origin asked for", Matrix, total_affine_momentum, NO_MATRIX),
     extra!(homogeneous, "affine_moment", "N m", "affine moment of forces N = P M^T", Matrix, affine_moment, NO_MATRIX),
@@ -204,11 +215,15 @@ pub(super) static EXTRA_FIELDS: [BodyField; 14] = [
         suffixes: &[],
         value: |context| FieldValue::Vector(context.displacement.unwrap_or(NO_VECTOR)),
     },
+    extra!(reaction, "constraint_force", "N", "force of `keep` on the centre of mass", Vector, force, NO_VECTOR),
+    extra!(reaction, "constraint_moment", "N m", "affine moment N = P M^T of `keep`", Matrix, moment, NO_MATRIX),
 ];
 
-/// How many of them, at the end, are of contacts and then of places; those before are of homogeneous strain.
+/// How many of them, at the end, are of contacts, then of places and then of guides; those before are of homogeneous
+/// strain.
 pub(super) const OF_CONTACTS: usize = 3;
 pub(super) const OF_PLACES: usize = 1;
+pub(super) const OF_GUIDES: usize = 2;
 
 /// A field of bodies in a fluid: NaN for any other.
 macro_rules! immersed {

@@ -10,14 +10,15 @@ pub use extras::Extras;
 
 use fields::{
     BODY_FIELDS, BodyContext, BodyField, CONTACT_FORCE, CONTRACTION, CONTRACTION_VELOCITY, DRIVE, FieldValue, GAP,
-    IMMERSED_FIELDS, PRESSURE, Rank,
+    IMMERSED_FIELDS, PRESSURE, Rank, Reaction,
 };
 use gyration::Inadmissible;
 use gyration::balance::{BodyObservation, energies, energies_at, observe_at};
 use gyration::body::Body;
-use gyration::dynamics::{ContactParts, Workspace, acting, contact_parts};
+use gyration::dynamics::{ContactParts, Workspace, acting, contact_parts, reaction};
 use gyration::homogeneous::{HomogeneousObservation, observe_homogeneous};
 use gyration::immersion::{ImmersionObservation, observe_immersion};
+use gyration::load::Loads;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Vec3;
@@ -33,6 +34,8 @@ pub struct Fields {
     by_parts: bool,
     /// Whether displacements are asked for.
     displacements: bool,
+    /// Whether the force of guides is asked for.
+    reactions: bool,
     /// Whether a body is immersed in a fluid.
     immersed: bool,
 }
@@ -43,6 +46,7 @@ pub struct RowScratch {
     bodies: Vec<BodyObservation>,
     homogeneous: Vec<HomogeneousObservation>,
     contacts: Vec<ContactParts>,
+    reactions: Vec<Option<Reaction>>,
     immersed: Vec<Option<ImmersionObservation>>,
     /// The row last filled, flattened in the order of [`Fields::arrays`].
     pub row: Vec<f64>,
@@ -58,7 +62,7 @@ impl Fields {
         let fields = usual.chain(in_fluid).chain(extras.fields()).collect();
         let origin = extras.are_homogeneous().then_some(extras.origin);
         let (by_parts, displacements) = (extras.are_of_contacts(), extras.are_of_places());
-        Self { fields, origin, by_parts, displacements, immersed }
+        Self { fields, origin, by_parts, displacements, reactions: extras.are_of_guides(), immersed }
     }
 
     /// The arrays of a recording of this model, and the order of its CSV columns.
@@ -89,10 +93,11 @@ impl Fields {
         initial: Option<f64>,
         scratch: &mut RowScratch,
     ) -> Result<Audit, Inadmissible> {
-        let RowScratch { bodies, homogeneous, contacts, immersed, row } = scratch;
+        let RowScratch { bodies, homogeneous, contacts, reactions, immersed, row } = scratch;
         bodies.clear();
         homogeneous.clear();
         contacts.clear();
+        reactions.clear();
         immersed.clear();
         row.clear();
         let (instant, scratch) = workspace.read(model, state)?;
@@ -106,6 +111,11 @@ impl Fields {
             if self.by_parts {
                 contacts.push(contact_parts(&at, scratch)?);
             }
+            if self.reactions {
+                let gradient = at.motion.placement.gradient;
+                let told = |Loads { force, moment }| Reaction { force, moment: gradient * moment.transpose() };
+                reactions.push(reaction(&at, &acting, scratch)?.map(told));
+            }
             if self.immersed {
                 immersed.push(observe_immersion(&at, scratch)?);
             }
@@ -118,6 +128,7 @@ impl Fields {
                     body,
                     homogeneous: homogeneous.get(index),
                     contacts: contacts.get(index),
+                    reaction: reactions.get(index).and_then(Option::as_ref),
                     displacement: self.displacements.then(|| displacement(index)).flatten(),
                     immersed: immersed.get(index).and_then(Option::as_ref),
                 }) {

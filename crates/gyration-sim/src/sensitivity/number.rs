@@ -81,10 +81,10 @@ impl SceneNumber {
         let (Some("body"), Some(name), Some(part)) = (words.next(), words.next(), words.next()) else { return false };
         let model = &scene.built().model;
         let body = model.find_body(name).or_else(|| name.parse().ok()).and_then(|index| model.bodies.get(index));
-        // A pin stays where the start has put it, and so belongs to the equations.
+        // A pin or a guide stays where the start has put it, and so belongs to the equations.
         let is_start =
             ["position", "velocity", "angular_velocity", "orientation", "gradient", "gradient_rate"].contains(&part);
-        is_start && body.is_some_and(|body| body.pin.is_none())
+        is_start && body.is_some_and(|body| body.pin.is_none() && body.guide.is_none())
     }
 
     /// The scene with another value in this place.

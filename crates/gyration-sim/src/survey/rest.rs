@@ -269,6 +269,8 @@ fn held_otherwise(model: &Model, index: usize) -> Option<&'static str> {
     let first = supports.next();
     if body.pin.is_some() {
         Some("a pin holds the body as well")
+    } else if body.guide.is_some() {
+        Some("a constraint, `keep`, holds the body as well")
     } else if model.meets_bodies(index) {
         Some("other bodies meet it as well")
     } else if model.springs_of(index).any(|end| end.other() == Party::Space) || model.is_joined(index) {

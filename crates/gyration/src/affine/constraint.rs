@@ -77,12 +77,17 @@ pub(super) fn project(body: &AffineBody, p: &Mat3, rate: &Mat3) -> Correction {
             break;
         }
         // d det P = det P tr(P⁻¹ δP) = (1 + excess) a s along δP = s P⁻ᵀ J⁻¹.
-        let across = body.inverse * inverse;
+        let across = way(body, &inverse);
         let step = excess / ((1.0 + excess) * inverse.dot(&across));
         gradient -= step * across.transpose();
     }
     let Some(inverse) = gradient.try_inverse() else { return Correction { gradient: *p, rate: *rate, size } };
-    let across = body.inverse * inverse;
+    let across = way(body, &inverse);
     let spread = rate.dot(&inverse.transpose());
     Correction { gradient, rate: rate - spread / inverse.dot(&across) * across.transpose(), size }
+}
+
+/// Yᵀ = J⁻¹ P⁻¹, as far as the body may go that way.
+fn way(body: &AffineBody, inverse: &Mat3) -> Mat3 {
+    if body.guide.is_some() { body.way(inverse).transpose() } else { body.inverse * inverse }
 }

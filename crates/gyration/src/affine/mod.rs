@@ -9,6 +9,7 @@
 mod anisotropic;
 mod constraint;
 mod elastic;
+mod guide;
 mod gyration;
 mod mobility;
 mod reaction;
@@ -20,6 +21,7 @@ mod viscosity;
 pub use anisotropic::AnisotropicFriction;
 pub(crate) use constraint::Constraint;
 pub use constraint::Correction;
+pub use guide::StrainGuide;
 pub use gyration::Gyration;
 pub use slopes::AffineSlopes;
 pub(crate) use terms::Entry;
@@ -47,6 +49,8 @@ pub struct AffineBody {
     pub viscosity: Viscosity,
     /// More of it, with directions of its own.
     pub anisotropic: Option<AnisotropicFriction>,
+    /// The gradients that it is kept to, if it is.
+    pub guide: Option<Box<StrainGuide>>,
 }
 
 /// The Euler tensor cannot be inverted: the mass lies in a plane, and the stretch across it has no meaning.
@@ -97,7 +101,15 @@ impl AffineBody {
         match (euler_tensor / largest).try_inverse() {
             Some(inverse) if smallest > SINGULAR_RATIO * largest => {
                 let inverse = inverse / largest;
-                Ok(Self { volume: mass.volume, euler_tensor, inverse, material, viscosity, anisotropic: None })
+                Ok(Self {
+                    volume: mass.volume,
+                    euler_tensor,
+                    inverse,
+                    material,
+                    viscosity,
+                    anisotropic: None,
+                    guide: None,
+                })
             }
             _ => Err(SingularEulerTensor { smallest, largest }),
         }
@@ -129,6 +141,12 @@ impl AffineBody {
     fn elastic_stress<F: F64x4>(&self, at: &Gyration, registers: F) -> Option<SimdMat3<F>> {
         let p = || SimdMat3::of(&at.gradient).with(registers);
         self.material.as_ref().map(|material| material.kirchhoff_stress_at(&p(), at.volume_ratio))
+    }
+
+    /// Y = P⁻ᵀ J⁻¹, as far as the body may go that way, of an inverse P⁻¹.
+    pub(crate) fn way(&self, inverse: &Mat3) -> Mat3 {
+        let way = inverse.transpose() * self.inverse;
+        self.guide.as_ref().map_or(way, |guide| guide.within(&way))
     }
 
     /// Solves the balance for P̈ and, of an incompressible body, the pressure; `moment` is M [N m].

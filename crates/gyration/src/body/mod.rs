@@ -4,9 +4,11 @@
 //! Ω), an affine body (p₀, P) and (ṗ₀, Ṗ), a contractile one G besides; `layout` says where these stand in the state. A
 //! pinned body has no position of its own; a body in a fluid that has no inertia has no velocities in its state.
 
+mod guide;
 mod layout;
 mod solid;
 
+pub use guide::{Guide, TurnGuide};
 pub use layout::{Slots, matrix, vector};
 pub use solid::Solid;
 
@@ -29,6 +31,8 @@ pub struct Body {
     pub solid: Arc<Solid>,
     /// The material point that stays fixed in space, if any.
     pub pin: Option<Pin>,
+    /// What its motion is kept to, if anything.
+    pub guide: Option<Box<Guide>>,
     /// What makes it feel the fluid, if it is immersed.
     pub inclusion: Option<Inclusion>,
     /// Forces of its own, as formulas of its place and of time.
@@ -195,11 +199,13 @@ pub const NEAR: f64 = 1e-5;
 impl Body {
     /// Whether another of the same solid is equal, so that one may stand for both; a pinned one has a place of its own.
     pub fn can_stand_for(&self, other: &Self) -> bool {
-        let Self { solid, kind, size, pin, inclusion, own } = self;
+        let Self { solid, kind, size, pin, guide, inclusion, own } = self;
         Arc::ptr_eq(solid, &other.solid)
             && *kind == other.kind
             && pin.is_none()
             && other.pin.is_none()
+            && guide.is_none()
+            && other.guide.is_none()
             && *inclusion == other.inclusion
             && *size == other.size
             && *own == other.own
@@ -223,7 +229,8 @@ impl Body {
             BodyKind::Affine(affine) => surface.patches.is_empty() && !affine.interior.is_incompressible(),
             BodyKind::Contractile(_) => false,
         };
-        kept && self.has_inertia()
+        // So is a motion that is kept to a plane or an axis.
+        kept && self.has_inertia() && self.guide.is_none()
     }
 
     /// The gap [m] to a body whose centre is so far away that cannot be told from zero.

@@ -2,6 +2,7 @@
 //!
 //!   m p̈₀ = m g + f,   P̈ J = M − V S;   pinned at r: P̈ J_p = M − (f + m g) ⊗ r − V S
 
+use super::guided::GuidedStrain;
 use super::loads::Acting;
 use crate::affine::{AffineBalance, AffineBody, Gyration};
 use crate::body::{Affine, Slots};
@@ -23,23 +24,35 @@ pub(crate) fn moment(at: &MotionAt, loads: &Loads) -> Mat3 {
 #[inline]
 pub(crate) fn balance(at: &MotionAt, affine: &Affine, gyration: &Gyration, loads: &Loads) -> AffineBalance {
     let mut balance = affine.interior.balance(gyration, &moment(at, loads));
+    let excess = excess(at, &affine.interior, gyration, &mut balance.acceleration, balance.pressure.is_some());
     if let Some(pressure) = &mut balance.pressure {
-        let excess = excess(at, &affine.interior, gyration, &balance.acceleration);
         *pressure -= excess;
         balance.stress += excess * gyration.inverse.transpose();
     }
     balance
 }
 
-/// λ/V, by which the pressure that keeps det P is less where the body has no inertia \[Pa\]: P̈ = λ Y is then no
-/// acceleration but what that pressure takes back.
-pub(super) fn excess(at: &MotionAt, interior: &AffineBody, gyration: &Gyration, acceleration: &Mat3) -> f64 {
-    if at.body.has_inertia() {
-        return 0.0;
+/// Takes P̈ to that with the guide of the body, if it has one; returns by how much the pressure that keeps det P, if
+/// there is one, is less than without guide and with inertia \[Pa\]. Without inertia P̈ = λ Y is no acceleration but
+/// what that pressure takes back, λ/V.
+pub(super) fn excess(
+    at: &MotionAt,
+    interior: &AffineBody,
+    gyration: &Gyration,
+    acceleration: &mut Mat3,
+    keeps_volume: bool,
+) -> f64 {
+    let mut excess = 0.0;
+    if let Some(strain) = GuidedStrain::of(interior, gyration, keeps_volume) {
+        let (held, push) = strain.hold(acceleration);
+        *acceleration = held;
+        excess = -push / interior.volume;
+    }
+    if at.body.has_inertia() || !keeps_volume {
+        return excess;
     }
     let across = gyration.inverse.transpose();
-    let way = across * interior.inverse;
-    acceleration.dot(&across) / (way.dot(&across) * interior.volume)
+    excess + acceleration.dot(&across) / (interior.way(&gyration.inverse).dot(&across) * interior.volume)
 }
 
 /// Solves the balance for the rates, and adds the powers of friction and constraint.
@@ -66,7 +79,10 @@ pub(super) fn fill(
 pub(super) fn write(at: &MotionAt, acting: &Acting, acceleration: &Mat3, slots: &Slots, rates: &mut [f64]) {
     let velocity = &at.motion.velocity;
     if at.body.pin.is_none() {
-        let linear = at.model.gravity + acting.total.force / at.body.solid.mass.mass;
+        let mut linear = at.model.gravity + acting.total.force / at.body.solid.mass.mass;
+        if let Some(center) = at.body.guide.as_ref().and_then(|guide| guide.center) {
+            linear = center * linear;
+        }
         rates[slots.position()].copy_from_slice(velocity.velocity.as_slice());
         rates[slots.velocity()].copy_from_slice(linear.as_slice());
     }

@@ -1,6 +1,7 @@
 //! The rates of one body with inertia: what acts on it, and the balance of its kind.
 
 use super::contractile::ContractileMotion;
+use super::guided::Guided;
 use super::history::RigidHistory;
 use super::loads::acting;
 use super::powers::Powers;
@@ -23,6 +24,9 @@ pub(crate) fn body_rates(
             match RigidHistory::of(at, turn) {
                 None => rigid::fill(at, inertia, turn, &wrench, slots, rates),
                 Some(history) => done[Work::Fluid] += history.fill(inertia, &wrench, slots, rates),
+            }
+            if let Some(guided) = Guided::at(at) {
+                guided.hold(&mut rates[slots.velocities()]);
             }
             Ok(done)
         }

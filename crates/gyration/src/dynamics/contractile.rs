@@ -57,13 +57,19 @@ impl<'a> ContractileMotion<'a> {
         parts.map(move |part| (part.measure.of(&motion.placement, &motion.velocity, near), part))
     }
 
+    /// P̈, V_G, stress, pressure, with inertia and without a guide.
+    pub fn free_balance(&self, loads: &Loads) -> ContractileBalance {
+        self.pull().balance(&self.command(), &moment(self.at, loads))
+    }
+
     /// P̈, V_G, stress, pressure.
     #[inline]
     pub fn balance(&self, loads: &Loads) -> ContractileBalance {
-        let mut balance = self.pull().balance(&self.command(), &moment(self.at, loads));
+        let mut balance = self.free_balance(loads);
         let Contractile { affine, contraction, .. } = self.contractile;
-        if let Some(pressure) = balance.pressure.as_mut().filter(|_| !contraction.gives_pressure()) {
-            let excess = excess(self.at, &affine.interior, self.gyration, &balance.acceleration);
+        let keeps_volume = balance.pressure.is_some() && !contraction.gives_pressure();
+        let excess = excess(self.at, &affine.interior, self.gyration, &mut balance.acceleration, keeps_volume);
+        if let Some(pressure) = balance.pressure.as_mut().filter(|_| keeps_volume) {
             *pressure -= excess;
             balance.stress += excess * self.gyration.inverse.transpose();
             if !contraction.is_driven() {

@@ -2,7 +2,7 @@
 //!
 //! `rates` is the file to read first. `loads` is the one loop over what acts on a body; `rigid`, `affine` and
 //! `contractile` solve the balance of each kind, `history` that of a sphere whose past motion the fluid feels,
-//! `body_rates` that of any body; `jacobian` differentiates it; `inertialess` stands above both, and `rates` over all.
+//! `body_rates` that of any body, `guided` what a guide makes of it; `jacobian` differentiates it; `inertialess` stands above both, and `rates` over all.
 
 mod affine;
 mod body_rates;
@@ -10,6 +10,7 @@ mod contact_parts;
 mod contacts;
 mod contractile;
 mod gaps;
+mod guided;
 mod history;
 mod immersed;
 mod inertialess;
@@ -23,6 +24,7 @@ mod rigid;
 pub use contact_parts::{ContactParts, contact_parts};
 pub use contacts::{gap_to_supports, nearest};
 pub use gaps::gap_at;
+pub use guided::reaction;
 pub use jacobian::{Blocks, Coupling, Lift, Lower};
 pub use loads::{Acting, acting, stored_energy};
 pub use pushes::{Push, each_push};

@@ -77,21 +77,26 @@ pub(super) fn fill(
     slots: &Slots,
     rates: &mut [f64],
 ) {
-    let (model, body, motion) = (at.model, at.body, at.motion);
-    let spin = &turn.spin;
+    if at.body.pin.is_none() {
+        let linear = at.model.gravity + wrench.force / at.body.solid.mass.mass;
+        rates[slots.position()].copy_from_slice(at.motion.velocity.velocity.as_slice());
+        rates[slots.velocity()].copy_from_slice(linear.as_slice());
+    }
+    rates[slots.attitude()].copy_from_slice(&turn.quaternion.rate(&turn.spin));
+    rates[slots.rate()].copy_from_slice((inertia.inverse * unbalanced(at, inertia, turn, wrench)).as_slice());
+}
+
+/// I Ω̇ = τ − Ω × IΩ about the centre of mass or the pin \[N m\].
+#[inline]
+pub(super) fn unbalanced(at: &MotionAt, inertia: &RigidInertia, turn: &Turn, wrench: &Wrench) -> Vec3 {
+    let (body, spin) = (at.body, &turn.spin);
     let gyroscopic = if body.has_inertia() { spin.cross(&(inertia.tensor * spin)) } else { Vec3::zeros() };
     let torque = match &body.pin {
-        None => {
-            let linear = model.gravity + wrench.force / body.solid.mass.mass;
-            rates[slots.position()].copy_from_slice(motion.velocity.velocity.as_slice());
-            rates[slots.velocity()].copy_from_slice(linear.as_slice());
-            wrench.torque
-        }
+        None => wrench.torque,
         Some(pin) => {
-            let force = motion.placement.gradient.tr_mul(&(wrench.force + body.solid.mass.mass * model.gravity));
-            wrench.torque - pin.point.cross(&force)
+            let force = wrench.force + body.solid.mass.mass * at.model.gravity;
+            wrench.torque - pin.point.cross(&at.motion.placement.gradient.tr_mul(&force))
         }
     };
-    rates[slots.attitude()].copy_from_slice(&turn.quaternion.rate(spin));
-    rates[slots.rate()].copy_from_slice((inertia.inverse * (torque - gyroscopic)).as_slice());
+    torque - gyroscopic
 }

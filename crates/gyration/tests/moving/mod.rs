@@ -104,6 +104,7 @@ pub fn body(shape: Shape, variant: Variant) -> Body {
         inclusion: None,
         own: OwnForces::default(),
         pin,
+        guide: None,
     }
 }
 

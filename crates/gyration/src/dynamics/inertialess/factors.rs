@@ -15,6 +15,8 @@ type Matrix = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
 ///
 ///   ( A_v   −Y )
 ///   ( P⁻ᵀ·   0 )
+///
+/// With a guide ΠA_v, whose image is that of Π, and its velocities are in it too: (1 − Π)v = 0 stands in the same rows.
 #[derive(Debug, Clone)]
 pub(super) struct Bordered {
     matrix: Matrix,
@@ -24,10 +26,20 @@ pub(super) struct Bordered {
 
 impl Bordered {
     /// Of a body, given the Jacobian that it has with inertia.
-    pub fn new(slots: &Slots, jacobian: &DMatrix<f64>, kept: Option<&KeptVolume>) -> Self {
+    pub fn new(
+        slots: &Slots,
+        jacobian: &DMatrix<f64>,
+        kept: Option<&KeptVolume>,
+        within: Option<&DMatrix<f64>>,
+    ) -> Self {
         let (at, count) = (slots.velocities().start, slots.velocities().len());
         let mut matrix = Matrix::identity();
         matrix.view_mut((0, 0), (count, count)).copy_from(&jacobian.view((at, at), (count, count)));
+        if let Some(within) = within {
+            let mut own = matrix.view_mut((0, 0), (count, count));
+            let size = own.amax();
+            own += (within - DMatrix::identity(count, count)) * size;
+        }
         let Some(kept) = kept else { return Self { matrix, weight: 1.0 } };
         let first = count - 9;
         let size = matrix.view((0, 0), (count, count)).amax();

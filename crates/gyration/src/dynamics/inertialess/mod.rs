@@ -291,7 +291,8 @@ impl Member {
         let kept = KeptVolume::of(at);
         let mut jacobian = scratch.take(slots.block().len());
         body_jacobian(at, scratch, &mut jacobian)?;
-        let bordered = Bordered::new(&slots, &jacobian, kept.as_ref());
+        let within = at.body.guided_velocities();
+        let bordered = Bordered::new(&slots, &jacobian, kept.as_ref(), within.as_ref());
         Ok(Self { index: at.index, slots, rates, jacobian, kept, bordered })
     }
 

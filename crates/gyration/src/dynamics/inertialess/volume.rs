@@ -1,6 +1,7 @@
 //! What keeps the volume of an incompressible body without inertia, in the place of an equation of motion.
 
 use super::super::contractile::ContractileMotion;
+use crate::affine::StrainGuide;
 use crate::body::Slots;
 use crate::contractile::ContractionCommand;
 use crate::instant::{KindAt, MotionAt};
@@ -13,8 +14,10 @@ pub(super) struct KeptVolume {
     pub inverse: Mat3,
     /// J⁻¹.
     mobility: Mat3,
-    /// Y.
+    /// Y, or ΠY of a body with a guide.
     pub direction: Mat3,
+    /// Π, if it has one.
+    guide: Option<Box<StrainGuide>>,
     /// θ [1/s].
     pub growth: f64,
 }
@@ -42,7 +45,8 @@ impl KeptVolume {
             return None;
         }
         let (inverse, mobility) = (gyration.inverse, affine.interior.inverse);
-        Some(Self { inverse, mobility, direction: inverse.transpose() * mobility, growth })
+        let (direction, guide) = (affine.interior.way(&inverse), affine.interior.guide.clone());
+        Some(Self { inverse, mobility, direction, guide, growth })
     }
 
     /// The change of λ Y and of θ − tr(Ṗ P⁻¹) with one of the numbers of a body, which stand as with inertia, at a Ṗ
@@ -63,7 +67,11 @@ impl KeptVolume {
         let (row, place) = (entry % 3, entry / 3);
         // δP = e_j ⊗ e_B: δ(P⁻ᵀ) = −P⁻ᵀ δPᵀ P⁻ᵀ.
         let turned = -(self.inverse.row(place).transpose() * self.inverse.column(row).transpose());
-        Some((self.multiplier(&acceleration()) * turned * self.mobility, -rate.dot(&turned)))
+        let mut change = self.multiplier(&acceleration()) * turned * self.mobility;
+        if let Some(guide) = &self.guide {
+            change = guide.within(&change);
+        }
+        Some((change, -rate.dot(&turned)))
     }
 
     /// λ of the accelerations P̈ at balance.

@@ -13,6 +13,7 @@
 //! body that has no other way. Bodies without inertia take their velocities from it (`inertialess`), not their rates.
 
 use super::super::contractile::ContractileMotion;
+use super::super::guided::Guided;
 use super::super::history::RigidHistory;
 use crate::affine::Gyration;
 use crate::body::{Affine, RigidInertia, Slots};
@@ -176,6 +177,16 @@ impl Lower {
 
     /// Of a body at an instant; its block begins at 0.
     pub fn of(at: &MotionAt) -> Self {
+        let mut lower = Self::free(at);
+        if let Some(guided) = Guided::at(at) {
+            let count = lower.slots.velocities().len();
+            lower.map.column_iter_mut().for_each(|mut column| guided.hold(&mut column.as_mut_slice()[..count]));
+        }
+        lower
+    }
+
+    /// The same without the guide of the body.
+    pub(super) fn free(at: &MotionAt) -> Self {
         let slots = Slots::with_inertia(at.body, 0);
         let columns: [Vec12; 12] = match at.kind() {
             KindAt::Rigid(inertia, turn) => {

@@ -21,6 +21,7 @@ pub(super) use interactions::add_interactions;
 
 use super::Scratch;
 use super::contractile::ContractileMotion;
+use super::guided::hold_block;
 use super::history::RigidHistory;
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, KindAt};
@@ -52,6 +53,12 @@ impl Blocks for [DMatrix<f64>] {
 
 /// The derivatives of the rates of one body with inertia by its own numbers.
 pub(super) fn body_jacobian(at: &BodyAt, scratch: &mut Scratch, matrix: &mut DMatrix<f64>) -> Result<(), Inadmissible> {
+    free_jacobian(at, scratch, matrix)?;
+    hold_block(at, scratch, matrix)
+}
+
+/// The same without the guide of the body.
+fn free_jacobian(at: &BodyAt, scratch: &mut Scratch, matrix: &mut DMatrix<f64>) -> Result<(), Inadmissible> {
     match at.kind() {
         KindAt::Rigid(inertia, turn) => {
             let (slopes, others) = rigid::slopes(at, turn, scratch)?;
@@ -61,7 +68,7 @@ pub(super) fn body_jacobian(at: &BodyAt, scratch: &mut Scratch, matrix: &mut DMa
                 None => slopes.fill(matrix, at.body, inertia, turn),
             }
             if let Some(others) = &others {
-                Coupling::from(others).add_to(matrix, &Lower::of(at), &Lift::of(at));
+                Coupling::from(others).add_to(matrix, &Lower::free(at), &Lift::of(at));
             }
             Ok(())
         }
