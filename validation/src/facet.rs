@@ -62,6 +62,7 @@ impl FacetBody {
             inclusion: None,
             own: Default::default(),
             pin: None,
+            guide: None,
             size: side,
         };
         let plane =

@@ -7,6 +7,7 @@ mod case_balanced_pairs;
 mod case_bands;
 mod case_bands_relations;
 mod case_bands_soft;
+mod case_bands_weightless;
 mod case_bonds;
 mod case_complex_bands;
 mod case_contracting_box;

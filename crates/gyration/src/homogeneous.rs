@@ -4,9 +4,8 @@
 //!   dK/dt = Ṗ J Ṗᵀ + N − V (S Pᵀ)ᵀ,   S Pᵀ symmetric
 //!
 //! M is that of all loads, about the centre of mass or the pin, and so is J; the balance takes the reaction of a guide
-//! with it. The mean stress of a rigid body is the one
-//! that its balance asks for, S = (M − P̈ J)/V: its S Pᵀ is then symmetric as well. Source: Sławianowski (1975),
-//! 2.7–3.9; `docs/theory-affine.md`.
+//! with it. The mean stress of a rigid body is the one that its balance asks for, S = (M − P̈ J)/V: its S Pᵀ is then
+//! symmetric as well. Source: Sławianowski (1975), 2.7–3.9; `docs/theory-affine.md`.
 
 use crate::body::{Body, Slots};
 use crate::dynamics::{Acting, ContractileMotion, Scratch, affine_balance, body_rates, moment, reaction};

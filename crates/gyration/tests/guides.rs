@@ -1,5 +1,5 @@
-//! Bodies of every kind kept to a plane, an axis, a line or strain without rotation, joined by springs, with inertia and
-//! without: derivatives, power, and a reaction that closes the balance and does no work.
+//! Bodies of every kind kept to a plane, an axis, a line or strain without rotation, joined by springs, with inertia
+//! and without: derivatives, power, and a reaction that closes the balance and does no work.
 
 use crate::between::{assert_blocks_are_derivatives, bodies, joined, orientation, state};
 use crate::moving::*;

@@ -29,6 +29,9 @@ pub(super) struct Basis {
 
 /// Of a symmetric matrix, or the symmetric part of any.
 pub(super) fn eigen(matrix: &DMatrix<f64>) -> Basis {
+    if matrix.is_empty() {
+        return Basis { vectors: DMatrix::zeros(0, 0), values: Vec::new(), zero: 0.0 };
+    }
     let eigen = (0.5 * (matrix + matrix.transpose())).symmetric_eigen();
     let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
     order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));

@@ -119,7 +119,7 @@ pub(super) fn rest_at(frozen: &mut FrozenSystem, numbers: &[f64]) -> Vec<Rest> {
         };
         let gap = gaps.into_iter().fold(f64::INFINITY, f64::min);
         let pressure = frozen.pressure(numbers, body);
-        let block = numbers[frozen.slots(body).block()].to_vec();
+        let block = frozen.block(numbers, body);
         Rest { placement, stretches, pressure, gap, contraction: None, block }
     };
     gaps.into_iter().enumerate().map(rest).collect()

@@ -34,6 +34,8 @@ pub(super) struct FrozenSystem {
     bonds: Vec<usize>,
     /// The numbers of the state at the start, without velocities.
     pub start: Vec<f64>,
+    /// Whether each body has no inertia in the scene: here all have, which rests do not feel.
+    weightless: Vec<bool>,
     evaluations: usize,
 }
 
@@ -75,8 +77,27 @@ impl FrozenSystem {
             springs: numbers_among(model.springs(), members),
             bonds: numbers_among(model.bonds(), members),
             start: numbers,
+            weightless: members.iter().map(|member| !model.bodies[*member].has_inertia()).collect(),
             evaluations: 0,
         }
+    }
+
+    /// Whether a body has no inertia in the scene.
+    pub fn is_weightless(&self, body: usize) -> bool {
+        self.weightless[body]
+    }
+
+    /// The block of a body as the state of the scene has it.
+    pub fn block(&self, numbers: &[f64], body: usize) -> Vec<f64> {
+        let slots = self.slots(body);
+        let [block, velocities] = [slots.block(), slots.velocities()];
+        let left_out = if self.weightless[body] { velocities } else { block.start..block.start };
+        block.filter(|place| !left_out.contains(place)).map(|place| numbers[place]).collect()
+    }
+
+    /// The block of a body here, at rest, given that of the state of the scene, which may end before G.
+    pub fn at_rest(&self, body: usize, block: &[f64]) -> Vec<f64> {
+        if self.weightless[body] { standing(&self.model.bodies[body], block) } else { block.to_vec() }
     }
 
     /// How often forces or their derivatives have been computed.
@@ -275,11 +296,22 @@ fn numbers_among<J: Interaction>(all: &[J], members: &[usize]) -> Vec<usize> {
     (0..all.len()).filter(is_among).collect()
 }
 
+/// The block of a body that has inertia and stands, given one without velocities.
+fn standing(body: &Body, block: &[f64]) -> Vec<f64> {
+    let velocities = Slots::of(body, 0).velocities();
+    let (places, extra) = block.split_at(velocities.start);
+    [places, &vec![0.0; velocities.len()], extra].concat()
+}
+
 /// A body whose signals have the values of the start, and its numbers without velocities.
 fn frozen(model: &Model, start: &State, index: usize, contraction: FrozenContraction) -> (Body, Vec<f64>) {
     let mut body = (*model.bodies[index]).clone();
     let slots = model.slots(index);
     let mut block = start.bodies[slots.block()].to_vec();
+    if let (false, Some(inclusion)) = (body.has_inertia(), &mut body.inclusion) {
+        inclusion.inertia = true;
+        block = standing(&body, &block);
+    }
     let own = Slots::of(&body, 0);
     block[own.velocities()].fill(0.0);
     if let BodyKind::Contractile(contractile) = &mut body.kind {

@@ -27,6 +27,7 @@ mod shape;
 mod slopes;
 mod spectrum;
 mod system;
+mod weightless;
 mod words;
 
 pub use participation::{PARTS, Participation};
@@ -211,9 +212,6 @@ pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
 /// # Errors
 /// [`NoRest`].
 pub fn system_rest(model: &Model, start: &State, members: &[usize]) -> Result<Vec<Rest>, NoRest> {
-    if members.iter().any(|body| !model.bodies[*body].has_inertia()) {
-        return Err(NoRest::WithoutInertia);
-    }
     let mut frozen = FrozenSystem::new(model, start, members, FrozenContraction::Held);
     let held = match equilibrium::find(&mut frozen) {
         Err(_) if Interruption::due().is_some() => return Err(NoRest::Interrupted),
@@ -229,7 +227,7 @@ fn contracting(model: &Model, start: &State, members: &[usize], held: Vec<Rest>)
     let mut frozen = FrozenSystem::new(model, start, members, FrozenContraction::Driven);
     let mut numbers = Vec::new();
     for (body, rest) in held.iter().enumerate() {
-        numbers.extend_from_slice(&rest.block);
+        numbers.extend(frozen.at_rest(body, &rest.block));
         if frozen.is_driven(body) {
             numbers.extend_from_slice(&frozen.start[frozen.contraction(body)]);
         }
@@ -273,11 +271,16 @@ pub fn system_modes(model: &Model, start: &State, members: &[usize], rests: &[Re
     Ok(modes)
 }
 
+/// The numbers of bodies at rest.
+fn at_rest(frozen: &FrozenSystem, rests: &[Rest]) -> Vec<f64> {
+    rests.iter().enumerate().flat_map(|(body, rest)| frozen.at_rest(body, &rest.block)).collect()
+}
+
 fn found_modes(model: &Model, start: &State, members: &[usize], rests: &[Rest]) -> Result<Vec<Mode>, NoSpectrum> {
     let stands = rests.iter().any(|rest| matches!(rest.contraction, Some(RestContraction::Stands(_))));
     let follows = if stands { FrozenContraction::Driven } else { FrozenContraction::Held };
     let mut frozen = FrozenSystem::new(model, start, members, follows);
-    let numbers: Vec<f64> = rests.iter().flat_map(|rest| &rest.block).copied().collect();
+    let numbers = at_rest(&frozen, rests);
     let slopes = frozen.slopes(&numbers).map_err(|_| NoSpectrum)?;
     let coordinates = SystemCoordinates::at(&frozen, &numbers);
     let resistance = coordinates.resistance(&slopes);
@@ -293,18 +296,24 @@ fn found_modes(model: &Model, start: &State, members: &[usize], rests: &[Rest]) 
             coordinates.first_order(&velocities, &slopes)
         }
     };
-    let basis = canonical::basis(&stiffness, &coordinates.patterns(&frozen, &numbers));
+    let inertial = coordinates.inertial(&frozen);
+    let (stiffness, resistance, first) = match inertial.weightless.is_empty() {
+        true => (stiffness, resistance, first),
+        false => inertial.condensed_real((&stiffness, &resistance), &first).ok_or(NoSpectrum)?,
+    };
+    let patterns = coordinates.patterns(&frozen, &numbers).into_iter().map(|pattern| inertial.moving_part(pattern));
+    let basis = canonical::basis(&stiffness, &patterns.collect::<Vec<_>>());
     let found = spectrum::solve((&stiffness, &resistance), &first, &basis)?;
     let names: Vec<&str> = members.iter().map(|body| model.name(*body)).collect();
     let mode = |found: &EigenMotion| {
-        let (real, mut imaginary) = shape::in_step(&found.shape);
+        let (real, mut imaginary) = shape::in_step(&inertial.placed(&found.shape, &found.following));
         if found.eigenvalues[0].im == 0.0 {
             imaginary.fill(0.0);
         }
         let (shapes, quadratures) = coordinates.scaled_shapes(&frozen, &real, &imaginary);
         let placements: Vec<Placement> = rests.iter().map(|rest| rest.placement).collect();
         let contracts = found.eigenvalues.len() == 1;
-        let along = found.contraction.map(|entry| entry.re);
+        let along = inertial.contractions(&found.contraction).map(|entry| entry.re);
         let strain = |body: usize| coordinates.strain(body, &along).filter(|_| contracts);
         let strains: Vec<Option<Mat3>> = (0..members.len()).map(strain).collect();
         let in_words = words::of_system(&names, frozen.bodies(), &placements, &shapes, &strains);

@@ -65,6 +65,8 @@ pub(super) struct EigenMotion {
     pub shape: DVector<C64>,
     /// Along γ.
     pub contraction: DVector<C64>,
+    /// The same in the scale and phase of the shape, where that is not zero.
+    pub following: DVector<C64>,
 }
 
 /// All of them, one a coordinate.
@@ -84,12 +86,17 @@ pub(super) fn solve(
             _ => system.coupled(&part)?,
         };
         motions.extend(found.into_iter().map(|motion| {
-            let mut whole = DVector::zeros(count + own);
-            let numbers = motion.shape.iter().chain(motion.contraction.iter());
-            part.iter().zip(numbers).for_each(|(at, value)| whole[*at] = *value);
+            let placed = |contraction: &DVector<C64>| {
+                let mut whole = DVector::zeros(count + own);
+                let numbers = motion.shape.iter().chain(contraction.iter());
+                part.iter().zip(numbers).for_each(|(at, value)| whole[*at] = *value);
+                whole
+            };
             let vectors = vectors.map(|entry| C64::new(entry, 0.0));
+            let whole = placed(&motion.contraction);
             let contraction = whole.rows(count, own).into_owned();
-            EigenMotion { shape: vectors * whole.rows(0, count), contraction, ..motion }
+            let following = placed(&motion.following).rows(count, own).into_owned();
+            EigenMotion { shape: vectors * whole.rows(0, count), contraction, following, ..motion }
         }));
     }
     Ok(motions)
@@ -220,7 +227,13 @@ impl System {
         };
         let motion = judge(&eigenvalues, 0.0, !self.bound(i));
         let shape = DVector::from_element(1, C64::new(1.0, 0.0));
-        EigenMotion { eigenvalues: eigenvalues.to_vec(), motion, shape, contraction: DVector::zeros(0) }
+        EigenMotion {
+            eigenvalues: eigenvalues.to_vec(),
+            motion,
+            shape,
+            contraction: DVector::zeros(0),
+            following: DVector::zeros(0),
+        }
     }
 
     /// The system of first order of a part: x of the bound coordinates, then y of all, then γ.
@@ -279,8 +292,8 @@ impl System {
             if value.im > rounding {
                 let eigenvalues = [C64::new(snap(value.re), value.im), C64::new(snap(value.re), -value.im)];
                 let motion = judge(&eigenvalues, rounding, false);
-                let Moved { shape, contraction } = self.moved(part, value, &vector);
-                motions.push(EigenMotion { eigenvalues: eigenvalues.to_vec(), motion, shape, contraction });
+                let Moved { shape, contraction, following } = self.moved(part, value, &vector);
+                motions.push(EigenMotion { eigenvalues: eigenvalues.to_vec(), motion, shape, contraction, following });
             } else if value.im >= -rounding {
                 reals.push((snap(value.re), self.moved(part, value, &vector)));
             }
@@ -303,12 +316,15 @@ impl System {
         };
         let speeds = along(value);
         // Where rates are some 30 orders apart the speeds of the slow motions vanish; their displacements do not.
-        let along = if speeds.norm().is_normal() { speeds } else { along(C64::new(1.0, 0.0)) };
+        let (along, times) = match speeds.norm().is_normal() {
+            true => (speeds, value),
+            false => (along(C64::new(1.0, 0.0)), C64::new(1.0, 0.0)),
+        };
         let contraction = vector.rows(bound.len() + coordinates.len(), contractions.len()).into_owned();
         let size = along.norm();
         match size > 0.0 {
-            true => Moved { shape: along / C64::new(size, 0.0), contraction },
-            false => Moved { shape: along, contraction },
+            true => Moved { shape: along / C64::new(size, 0.0), following: &contraction * (times / size), contraction },
+            false => Moved { shape: along, following: contraction.clone(), contraction },
         }
     }
 
@@ -327,9 +343,9 @@ impl System {
         };
         reals.sort_by(|a, b| freedom(b).total_cmp(&freedom(a)));
         let mut motions = Vec::new();
-        let motion = |values: &[f64], Moved { shape, contraction }: Moved, free: bool| {
+        let motion = |values: &[f64], Moved { shape, contraction, following }: Moved, free: bool| {
             let eigenvalues: Vec<C64> = values.iter().map(|value| C64::new(*value, 0.0)).collect();
-            EigenMotion { motion: judge(&eigenvalues, rounding, free), eigenvalues, shape, contraction }
+            EigenMotion { motion: judge(&eigenvalues, rounding, free), eigenvalues, shape, contraction, following }
         };
         for (value, moved) in reals.drain(..neutral.min(reals.len())) {
             motions.push(motion(&[0.0, value], moved, true));
@@ -365,6 +381,8 @@ struct Moved {
     /// Of length one, or nothing.
     shape: DVector<C64>,
     contraction: DVector<C64>,
+    /// The contraction in the scale of the shape.
+    following: DVector<C64>,
 }
 
 /// What a motion does; `free` if one of its zeros is that of a free coordinate.

@@ -6,6 +6,7 @@ use super::frozen::FrozenSystem;
 use super::shape::ModeShape;
 use super::slopes::SystemSlopes;
 use super::spectrum::FirstOrder;
+use super::weightless::Inertial;
 use gyration::body::{Body, Slots};
 use gyration::lattice::HERE;
 use gyration::tensor::Mat3;
@@ -74,6 +75,15 @@ impl SystemCoordinates {
     /// Where z of a body stand.
     pub fn range(&self, body: usize) -> Range<usize> {
         self.bodies[body].z.clone()
+    }
+
+    /// Which z have inertia.
+    pub fn inertial(&self, frozen: &FrozenSystem) -> Inertial {
+        let of = |weightless: bool| {
+            let bodies = (0..self.bodies.len()).filter(move |body| frozen.is_weightless(*body) == weightless);
+            bodies.flat_map(|body| self.range(body)).collect()
+        };
+        Inertial { moving: of(false), weightless: of(true) }
     }
 
     /// Whether the contraction of a body moves.

@@ -4,8 +4,8 @@
 //!
 //!   p̈₀ = Π_c a,   Ω̇ = b (I b·α)/(b·I b),   P̈ = Π A                a, α, A without it
 //!
-//! b is the axis of a rigid body in its own axes; it stands still in space too. The centre and P are apart in the metric
-//! of the mass. Source: `docs/theory-rigid.md`, `docs/theory-affine.md`.
+//! b is the axis of a rigid body in its own axes; it stands still in space too. The centre and P are apart in the
+//! metric of the mass. Source: `docs/theory-rigid.md`, `docs/theory-affine.md`.
 
 use super::{Body, RigidInertia, Slots};
 use crate::affine::StrainGuide;

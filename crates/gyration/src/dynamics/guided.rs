@@ -3,8 +3,8 @@
 //!   p̈₀ = Π_c a,   Ω̇ = Π_t α,   P̈ = H A = Π A + λ ΠY,   λ = c·(A − ΠA)/(c·ΠY)
 //!
 //! a, α, A are the accelerations without the guide. λ is what the pressure of an incompressible body grows by, so that
-//! tr(P̈ P⁻¹) = c·P̈ stays what it has to be: c = P⁻ᵀ, Y = P⁻ᵀJ⁻¹. H is linear, and serves changes of A as well; its own
-//! change along δP is that of c and Y,
+//! tr(P̈ P⁻¹) = c·P̈ stays what it has to be: c = P⁻ᵀ, Y = P⁻ᵀJ⁻¹. H is linear, and serves changes of A as well; its
+//! own change along δP is that of c and Y,
 //!
 //!   δH A = λ Πδ(Y) + ΠY (δc·(A − P̈) − λ c·Πδ(Y))/(c·ΠY)
 //!

@@ -2,7 +2,8 @@
 //!
 //! `rates` is the file to read first. `loads` is the one loop over what acts on a body; `rigid`, `affine` and
 //! `contractile` solve the balance of each kind, `history` that of a sphere whose past motion the fluid feels,
-//! `body_rates` that of any body, `guided` what a guide makes of it; `jacobian` differentiates it; `inertialess` stands above both, and `rates` over all.
+//! `body_rates` that of any body, `guided` what a guide makes of it; `jacobian` differentiates it; `inertialess` stands
+//! above both, and `rates` over all.
 
 mod affine;
 mod body_rates;

@@ -9,6 +9,7 @@ use super::super::frozen::FrozenSystem;
 use super::super::participation::{PARTS, energies};
 use super::super::spectrum::FirstOrder;
 use super::super::system::SystemCoordinates;
+use super::super::weightless::{Inertial, MotionMatrices};
 use gyration::Inadmissible;
 use gyration::lattice::{Cell, HERE, Lattice, opposite};
 use gyration::tensor::Vec3;
@@ -32,6 +33,10 @@ pub(super) struct BlochSystem {
     pub counts: [usize; 2],
     /// The largest |K| that there may be [1/s²].
     pub stiffest: f64,
+    /// The same of what has inertia.
+    pub stiffest_moving: f64,
+    /// Which ξ have inertia.
+    pub inertial: Inertial,
     /// Whether K(k) is Hermitian at every k, and nothing else acts.
     pub is_conservative: bool,
     /// Of each body: where its ξ stand, and twice the kinetic energy of each part of a motion as a form of them.
@@ -49,23 +54,6 @@ struct CellMatrices {
     entries: Vec<(usize, usize, f64)>,
     resistance: DMatrix<f64>,
     first: FirstOrder,
-}
-
-/// The matrices at a wave vector.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct WaveMatrices {
-    /// K.
-    pub stiffness: DMatrix<C64>,
-    /// C.
-    pub resistance: DMatrix<C64>,
-    /// B.
-    pub forces: DMatrix<C64>,
-    /// D.
-    pub by_place: DMatrix<C64>,
-    /// E.
-    pub by_rate: DMatrix<C64>,
-    /// H.
-    pub own: DMatrix<C64>,
 }
 
 impl BlochSystem {
@@ -92,21 +80,26 @@ impl BlochSystem {
         let stiffest = cells.iter().map(|cell| cell.stiffness.norm()).sum();
         let is_conservative = is_conservative(&cells, stiffest) && counts[1] == 0;
         let parts = parts(frozen, coordinates, numbers);
-        Ok(Self { cells, counts, stiffest, is_conservative, parts })
+        let inertial = coordinates.inertial(frozen);
+        let stiffest_moving = match inertial.weightless.is_empty() {
+            true => stiffest,
+            false => cells.iter().map(|cell| cell.stiffness.select_rows(&inertial.moving).norm()).sum(),
+        };
+        Ok(Self { cells, counts, stiffest, stiffest_moving, inertial, is_conservative, parts })
     }
 
     /// The matrices at κ.
-    pub fn wave(&self, kappa: &[f64; 3]) -> WaveMatrices {
+    pub fn wave(&self, kappa: &[f64; 3]) -> MotionMatrices {
         self.summed(|cell| phase(kappa, cell.cell))
     }
 
     /// Their derivatives by k along a direction [m × each].
-    pub fn slope(&self, kappa: &[f64; 3], along: &Vec3) -> WaveMatrices {
+    pub fn slope(&self, kappa: &[f64; 3], along: &Vec3) -> MotionMatrices {
         self.summed(|cell| phase(kappa, cell.cell) * C64::new(0.0, cell.place.dot(along)))
     }
 
     /// Their second derivatives at k = 0 along a direction [m² × each].
-    pub fn curvature(&self, along: &Vec3) -> WaveMatrices {
+    pub fn curvature(&self, along: &Vec3) -> MotionMatrices {
         self.summed(|cell| C64::new(-cell.place.dot(along) * cell.place.dot(along), 0.0))
     }
 
@@ -127,23 +120,15 @@ impl BlochSystem {
     }
 
     /// The part of the cells that are so many away along a direction, with the phases of the others.
-    pub fn wave_of_layer(&self, kappa: &[f64; 3], direction: usize, layer: i32) -> WaveMatrices {
+    pub fn wave_of_layer(&self, kappa: &[f64; 3], direction: usize, layer: i32) -> MotionMatrices {
         let mut across = *kappa;
         across[direction] = 0.0;
         let is_in = |cell: Cell| cell[direction] == layer;
         self.summed(|cell| if is_in(cell.cell) { phase(&across, cell.cell) } else { C64::new(0.0, 0.0) })
     }
 
-    fn summed(&self, factor: impl Fn(&CellMatrices) -> C64) -> WaveMatrices {
-        let [size, own] = self.counts;
-        let mut sum = WaveMatrices {
-            stiffness: DMatrix::zeros(size, size),
-            resistance: DMatrix::zeros(size, size),
-            forces: DMatrix::zeros(size, own),
-            by_place: DMatrix::zeros(own, size),
-            by_rate: DMatrix::zeros(own, size),
-            own: DMatrix::zeros(own, own),
-        };
+    fn summed(&self, factor: impl Fn(&CellMatrices) -> C64) -> MotionMatrices {
+        let mut sum = MotionMatrices::zeros(self.counts);
         let add = |sum: &mut DMatrix<C64>, part: &DMatrix<f64>, factor: C64| {
             sum.iter_mut().zip(part.iter()).for_each(|(sum, part)| *sum += factor * *part);
         };

@@ -77,7 +77,7 @@ impl BlochSystem {
             block.view_mut((size, 0), (own, size)).copy_from(&-(at.by_place + at.by_rate * root));
             block.view_mut((size, size), (own, own)).copy_from(&-at.own);
             if n == 0 {
-                (0..size).for_each(|i| block[(i, i)] += root * root);
+                self.inertial.moving.iter().for_each(|i| block[(*i, *i)] += root * root);
                 (size..size + own).for_each(|i| block[(i, i)] += root);
             }
             block

@@ -138,9 +138,6 @@ impl LatticeWaves {
     /// [`NoBands`].
     pub fn new(model: &Model, start: &State, relaxes: bool) -> Result<Self, NoBands> {
         let members: Vec<usize> = (0..model.bodies.len()).collect();
-        if members.iter().any(|body| !model.bodies[*body].has_inertia()) {
-            return Err(NoRest::WithoutInertia.into());
-        }
         let sought = if relaxes { Some(system_rest(model, start, &members)?) } else { None };
         let goes_on = |rest: &Rest| matches!(rest.contraction, Some(RestContraction::GoesOn(_)));
         let follows = match &sought {
@@ -149,7 +146,7 @@ impl LatticeWaves {
         };
         let mut frozen = FrozenSystem::new(model, start, &members, follows);
         let numbers = match &sought {
-            Some(rests) => rests.iter().flat_map(|rest| rest.block()).copied().collect(),
+            Some(rests) => super::at_rest(&frozen, rests),
             None => frozen.start.clone(),
         };
         let lattice = Lattice::clone(&model.lattice);

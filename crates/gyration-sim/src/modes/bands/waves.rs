@@ -12,7 +12,8 @@
 //!
 //! Where several waves have one root these derivatives are the eigenvalues of the matrix that their shapes give.
 
-use super::bloch::{BlochSystem, C64, WaveMatrices};
+use super::super::weightless::MotionMatrices;
+use super::bloch::{BlochSystem, C64};
 use gyration::tensor::Vec3;
 use nalgebra::{ComplexField, DMatrix, DVector, Schur};
 
@@ -104,16 +105,25 @@ impl BlochSystem {
     }
 
     fn dissipative(&self, kappa: &[f64; 3], along: &Vec3) -> Result<Waves, NoRoots> {
-        let system = FirstOrderWaves::new(self.wave(kappa), NEUTRAL * self.stiffest)?;
+        let matrices = self.wave(kappa);
+        let slopes = [Vec3::x(), Vec3::y(), Vec3::z(), *along].map(|axis| self.slope(kappa, &axis));
+        let (matrices, slopes) = match self.inertial.weightless.is_empty() {
+            true => (matrices, slopes.to_vec()),
+            false => {
+                let condensed = |slope| self.inertial.condensed(&matrices, slope).ok_or(NoRoots);
+                let pairs = slopes.iter().map(condensed).collect::<Result<Vec<_>, _>>()?;
+                let (at, changes): (Vec<_>, Vec<_>) = pairs.into_iter().map(|[at, change]| (at, change)).unzip();
+                (at.into_iter().next().ok_or(NoRoots)?, changes)
+            }
+        };
+        let system = FirstOrderWaves::new(matrices, NEUTRAL * self.stiffest_moving, self.inertial.places())?;
         let found = system.roots()?;
-        let slopes = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| self.slope(kappa, &axis));
-        let directed = self.slope(kappa, along);
         let mut waves = Vec::new();
         for group in &found.groups {
-            waves.extend(system.group(group, &slopes, &directed));
+            waves.extend(system.group(group, &slopes));
         }
         let still = Wave { root: C64::new(0.0, 0.0), shape: DVector::zeros(self.counts[0]), velocity: None };
-        waves.extend(system.neutral.iter().map(|shape| Wave { shape: shape.clone(), ..still.clone() }));
+        waves.extend(system.neutral.iter().map(|shape| Wave { shape: system.placed(shape), ..still.clone() }));
         let mut roots: Vec<C64> = waves.iter().map(|wave| wave.root).collect();
         roots.sort_by(|a, b| a.im.abs().total_cmp(&b.im.abs()).then(a.im.total_cmp(&b.im)).then(b.re.total_cmp(&a.re)));
         Ok(Waves { branches: branches(waves, self.counts.iter().sum()), roots })
@@ -151,7 +161,9 @@ pub(super) fn hermitian(matrix: DMatrix<C64>) -> DMatrix<C64> {
 
 /// The system of first order at a wave vector: x of the coordinates on which something depends, y of all, then γ.
 struct FirstOrderWaves {
-    matrices: WaveMatrices,
+    matrices: MotionMatrices,
+    /// Where the places among (ξ | γ) stand among all: ξ, and γ of bodies without inertia.
+    places: Vec<usize>,
     /// The basis of sym K.
     basis: DMatrix<C64>,
     /// Which coordinates have an x.
@@ -174,9 +186,14 @@ struct RootGroup {
 }
 
 impl FirstOrderWaves {
-    fn new(matrices: WaveMatrices, least: f64) -> Result<Self, NoRoots> {
-        let eigen = hermitian(matrices.stiffness.clone()).try_symmetric_eigen(f64::EPSILON, SWEEPS).ok_or(NoRoots)?;
-        let basis = eigen.eigenvectors;
+    fn new(matrices: MotionMatrices, least: f64, places: Vec<usize>) -> Result<Self, NoRoots> {
+        let basis = match matrices.stiffness.is_empty() {
+            true => DMatrix::zeros(0, 0),
+            false => {
+                let eigen = hermitian(matrices.stiffness.clone()).try_symmetric_eigen(f64::EPSILON, SWEEPS);
+                eigen.ok_or(NoRoots)?.eigenvectors
+            }
+        };
         let (size, own) = (basis.ncols(), matrices.own.nrows());
         let within = basis.adjoint() * &matrices.stiffness * &basis;
         let resistance = basis.adjoint() * &matrices.resistance * &basis;
@@ -211,7 +228,14 @@ impl FirstOrderWaves {
         matrix.view_mut((gamma, y), (own, size)).copy_from(&by_rate);
         matrix.view_mut((gamma, gamma), (own, own)).copy_from(&matrices.own);
         let neutral = free.iter().map(|i| basis.column(*i).into_owned()).collect();
-        Ok(Self { matrices, basis, bound, neutral, matrix })
+        Ok(Self { matrices, places, basis, bound, neutral, matrix })
+    }
+
+    /// ξ of all bodies, given (ξ | γ), or its first numbers alone.
+    fn placed(&self, numbers: &DVector<C64>) -> DVector<C64> {
+        let mut whole = DVector::zeros(self.places.len());
+        self.places.iter().zip(numbers.iter()).for_each(|(at, number)| whole[*at] = *number);
+        whole
     }
 
     /// All roots with their vectors.
@@ -281,14 +305,13 @@ impl FirstOrderWaves {
         left
     }
 
-    /// The waves of roots that are one.
-    fn group(&self, group: &RootGroup, slopes: &[WaveMatrices; 3], directed: &WaveMatrices) -> Vec<Wave> {
-        let size = self.basis.ncols();
+    /// The waves of roots that are one, given the slopes along the axes and along the direction.
+    fn group(&self, group: &RootGroup, slopes: &[MotionMatrices]) -> Vec<Wave> {
         let RootGroup { roots, shapes, left } = group;
         let root = roots[0];
         // ∂λ = −(zᴴ ∂Q/∂λ ξ)⁻¹ zᴴ ∂Q ξ.
         let metric = left.adjoint() * self.by_root(root, shapes);
-        let change = |slope: &WaveMatrices| {
+        let change = |slope: &MotionMatrices| {
             let changed = left.adjoint() * along(slope, root, shapes);
             metric.clone().lu().solve(&-changed)
         };
@@ -296,25 +319,25 @@ impl FirstOrderWaves {
         // Combinations of shapes that stay waves along the direction.
         let turned = match count {
             1 => None,
-            _ => change(directed).and_then(eigenvectors),
+            _ => slopes.last().and_then(change).and_then(eigenvectors),
         };
         let inverse = turned.as_ref().and_then(|turned| turned.clone().try_inverse());
-        let velocities: [Option<DMatrix<C64>>; 3] = slopes.each_ref().map(|slope| {
+        let velocity = |slope: &MotionMatrices| {
             let change = change(slope)?;
             match (&turned, &inverse) {
                 (Some(turned), Some(inverse)) => Some(inverse * change * turned),
                 _ => Some(change),
             }
-        });
+        };
+        let velocities: Vec<Option<DMatrix<C64>>> = slopes.iter().take(3).map(velocity).collect();
         let shapes = match (&turned, &inverse) {
             (Some(turned), Some(_)) => shapes * turned,
             _ => shapes.clone(),
         };
         let wave = |(k, root): (usize, &C64)| {
-            let shape = shapes.view((0, k), (size, 1)).into_owned();
+            let shape = self.placed(&shapes.column(k).into_owned());
             let norm = shape.norm();
-            let shape: DVector<C64> =
-                DVector::from_column_slice(shape.as_slice()) / C64::new(norm.max(f64::MIN_POSITIVE), 0.0);
+            let shape = shape / C64::new(norm.max(f64::MIN_POSITIVE), 0.0);
             let oscillates = root.im != 0.0;
             let component = |a: usize| Some(-velocities[a].as_ref()?[(k, k)].im);
             let velocity = oscillates.then(|| Some(Vec3::new(component(0)?, component(1)?, component(2)?))).flatten();
@@ -335,7 +358,7 @@ impl FirstOrderWaves {
 }
 
 /// ∂Q (ξ | γ) = ((λ ∂C + ∂K) ξ − ∂B γ | −(∂D + λ ∂E) ξ − ∂H γ).
-fn along(slope: &WaveMatrices, root: C64, shapes: &DMatrix<C64>) -> DMatrix<C64> {
+fn along(slope: &MotionMatrices, root: C64, shapes: &DMatrix<C64>) -> DMatrix<C64> {
     let size = slope.stiffness.nrows();
     let (xi, gamma) = (shapes.rows(0, size), shapes.rows(size, shapes.nrows() - size));
     let mut product = shapes.clone();
