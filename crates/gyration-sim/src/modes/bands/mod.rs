@@ -9,6 +9,7 @@
 
 mod bloch;
 mod cell_rest;
+mod eigenspaces;
 mod evanescent;
 mod mesh;
 mod path;

@@ -14,6 +14,7 @@
 
 use super::super::weightless::MotionMatrices;
 use super::bloch::{BlochSystem, C64};
+use super::eigenspaces::{Eigenspace, eigenspaces};
 use gyration::tensor::Vec3;
 use nalgebra::{ComplexField, DMatrix, DVector, Schur};
 
@@ -22,7 +23,9 @@ pub(super) const NEUTRAL: f64 = 1e-12;
 /// Real or imaginary parts below this part of the largest root are rounding.
 const ROUNDING: f64 = 1e-10;
 /// Roots nearer than this part of the largest are one.
-const SAME: f64 = 1e-8;
+pub(super) const SAME: f64 = 1e-8;
+/// Entries below this part of the largest are the rounding of a few hundred operations on it.
+const NOISE: f64 = 3e-14;
 /// Sweeps of an iteration at most.
 pub(super) const SWEEPS: usize = 10_000;
 
@@ -119,7 +122,7 @@ impl BlochSystem {
         let system = FirstOrderWaves::new(matrices, NEUTRAL * self.stiffest_moving, self.inertial.places())?;
         let found = system.roots()?;
         let mut waves = Vec::new();
-        for group in &found.groups {
+        for group in &found {
             waves.extend(system.group(group, &slopes));
         }
         let still = Wave { root: C64::new(0.0, 0.0), shape: DVector::zeros(self.counts[0]), velocity: None };
@@ -159,6 +162,12 @@ pub(super) fn hermitian(matrix: DMatrix<C64>) -> DMatrix<C64> {
     (&matrix + matrix.adjoint()) * half
 }
 
+/// A matrix whose noise is zero, so that what does not act on each other falls into parts.
+fn without_noise(matrix: DMatrix<C64>) -> DMatrix<C64> {
+    let least = NOISE * matrix.camax();
+    matrix.map(|entry| if entry.modulus() <= least { C64::new(0.0, 0.0) } else { entry })
+}
+
 /// The system of first order at a wave vector: x of the coordinates on which something depends, y of all, then γ.
 struct FirstOrderWaves {
     matrices: MotionMatrices,
@@ -171,11 +180,6 @@ struct FirstOrderWaves {
     /// The shapes of the others.
     neutral: Vec<DVector<C64>>,
     matrix: DMatrix<C64>,
-}
-
-/// The Schur form of a system, and its roots in groups that are one.
-struct FoundRoots {
-    groups: Vec<RootGroup>,
 }
 
 /// Roots that are one, with the shapes (ξ | γ) and the left null vectors of their waves, column by column.
@@ -195,8 +199,8 @@ impl FirstOrderWaves {
             }
         };
         let (size, own) = (basis.ncols(), matrices.own.nrows());
-        let within = basis.adjoint() * &matrices.stiffness * &basis;
-        let resistance = basis.adjoint() * &matrices.resistance * &basis;
+        let within = without_noise(basis.adjoint() * &matrices.stiffness * &basis);
+        let resistance = without_noise(basis.adjoint() * &matrices.resistance * &basis);
         let (by_place, by_rate) = (&matrices.by_place * &basis, &matrices.by_rate * &basis);
         let forces = basis.adjoint() * &matrices.forces;
         let felt = by_place.iter().fold(0.0, |most: f64, entry| most.max(entry.modulus()));
@@ -238,44 +242,17 @@ impl FirstOrderWaves {
         whole
     }
 
-    /// All roots with their vectors.
-    fn roots(&self) -> Result<FoundRoots, NoRoots> {
-        let size = self.matrix.nrows();
-        // Rows and columns of like sizes, by powers of two, which round nothing.
-        let schur = Schur::try_new(self.matrix.clone(), f64::EPSILON, SWEEPS).ok_or(NoRoots)?;
-        let (unitary, triangle) = schur.unpack();
-        let values: Vec<C64> = triangle.diagonal().iter().copied().collect();
-        let largest = values.iter().map(|value| value.modulus()).fold(0.0, f64::max);
-        let mut left: Vec<usize> = (0..size).collect();
-        let mut groups = Vec::new();
-        while let Some(first) = left.first().copied() {
-            let is_same = |k: &usize| (values[*k] - values[first]).modulus() <= SAME * largest;
-            let (group, others): (Vec<usize>, Vec<usize>) = left.iter().partition(|k| is_same(k));
-            left = others;
-            // A shift beside the root by more than its rounding keeps the triangle regular.
-            let shift = values[first] + C64::new(0.3, 0.4) * (1e-3 * SAME * largest).max(f64::MIN_POSITIVE);
-            let shifted = &triangle - DMatrix::from_diagonal_element(size, size, shift);
-            let start = DMatrix::from_fn(size, group.len(), |i, j| {
-                C64::new(libm::sin(1.0 + 1.7 * i as f64 + 2.3 * (j * i) as f64), 0.1)
-            });
-            let mut right_vectors = start.clone();
-            let mut left_vectors = start;
-            for _ in 0..3 {
-                shifted.solve_upper_triangular_mut(&mut right_vectors);
-                right_vectors = right_vectors.qr().q();
-                shifted.ad_solve_upper_triangular_mut(&mut left_vectors);
-                left_vectors = left_vectors.qr().q();
-            }
-            let snap = |value: f64| if value.abs() <= ROUNDING * largest { 0.0 } else { value };
-            let roots = group.iter().map(|k| C64::new(snap(values[*k].re), snap(values[*k].im))).collect();
-            let (right_vectors, left_vectors) = (&unitary * right_vectors, &unitary * left_vectors);
-            groups.push(RootGroup {
-                roots,
-                shapes: self.shapes(values[first], &right_vectors),
-                left: self.left(&left_vectors),
-            });
-        }
-        Ok(FoundRoots { groups })
+    /// All roots with their shapes.
+    fn roots(&self) -> Result<Vec<RootGroup>, NoRoots> {
+        let found = eigenspaces(&self.matrix)?;
+        let largest = found.iter().flat_map(|it| &it.values).map(|value| value.modulus()).fold(0.0, f64::max);
+        let snap = |value: f64| if value.abs() <= ROUNDING * largest { 0.0 } else { value };
+        let group = |Eigenspace { values, right, left }: Eigenspace| RootGroup {
+            roots: values.iter().map(|value| C64::new(snap(value.re), snap(value.im))).collect(),
+            shapes: self.shapes(values[0], &right),
+            left: self.left(&left),
+        };
+        Ok(found.into_iter().map(group).collect())
     }
 
     /// (ξ | γ) of eigenvectors: ξ = x/ω where there is an x, else y/λ.

@@ -1,0 +1,136 @@
+//! The eigenvalues of a complex matrix that has no symmetry, with right and left vectors.
+//!
+//! Indices that no entry joins fall into parts, each with a Schur form of its own: a part is small where most
+//! coordinates do not act on each other, and many equal eigenvalues, on which the iteration may stall, are each in
+//! another part.
+
+use super::bloch::C64;
+use super::waves::{NoRoots, SAME};
+use nalgebra::{ComplexField, DMatrix, DVector, Schur};
+
+/// Sweeps of the Schur form at most, an eigenvalue; a few are the rule.
+const SWEEPS: usize = 30;
+
+/// Eigenvalues that are one, and what spans their right and left vectors.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Eigenspace {
+    /// At least one.
+    pub values: Vec<C64>,
+    /// Column by column.
+    pub right: DMatrix<C64>,
+    pub left: DMatrix<C64>,
+}
+
+/// All of them.
+pub(super) fn eigenspaces(matrix: &DMatrix<C64>) -> Result<Vec<Eigenspace>, NoRoots> {
+    let forms = parts(matrix).into_iter().map(|part| Form::of(matrix, part)).collect::<Result<Vec<_>, _>>()?;
+    let values = forms.iter().flat_map(|form| form.triangle.diagonal().iter().copied().collect::<Vec<_>>());
+    let same = SAME * values.map(|value| value.modulus()).fold(0.0, f64::max);
+    let mut found: Vec<Eigenspace> = Vec::new();
+    for space in forms.iter().flat_map(|form| form.spaces(matrix.nrows(), same)) {
+        match found.iter_mut().find(|known| (known.values[0] - space.values[0]).modulus() <= same) {
+            Some(known) => known.join(&space),
+            None => found.push(space),
+        }
+    }
+    Ok(found)
+}
+
+impl Eigenspace {
+    /// Takes in one of another part.
+    fn join(&mut self, other: &Self) {
+        self.values.extend(&other.values);
+        for (own, others) in [(&mut self.right, &other.right), (&mut self.left, &other.left)] {
+            let joined: Vec<_> = own.column_iter().chain(others.column_iter()).collect();
+            *own = DMatrix::from_columns(&joined);
+        }
+    }
+}
+
+/// The indices that entries join, part by part, ascending.
+fn parts(matrix: &DMatrix<C64>) -> Vec<Vec<usize>> {
+    let joined = |i: usize, j: usize| matrix[(i, j)].modulus() > 0.0 || matrix[(j, i)].modulus() > 0.0;
+    let mut left: Vec<usize> = (0..matrix.nrows()).collect();
+    let mut parts = Vec::new();
+    while let Some(first) = left.first().copied() {
+        left.remove(0);
+        let mut part = vec![first];
+        let mut at = 0;
+        while at < part.len() {
+            let (near, others) = left.iter().partition::<Vec<usize>, _>(|j| joined(part[at], **j));
+            part.extend(near);
+            left = others;
+            at += 1;
+        }
+        part.sort_unstable();
+        parts.push(part);
+    }
+    parts
+}
+
+/// 1 − 2 v ⊗ v of a unit vector without zeros and without symmetry.
+fn mirror(size: usize) -> DMatrix<C64> {
+    let normal = DVector::from_fn(size, |i, _| C64::new(libm::sin(1.0 + 1.7 * i as f64), 0.1)).normalize();
+    DMatrix::identity(size, size) - &normal * normal.adjoint() * C64::new(2.0, 0.0)
+}
+
+/// The Schur form of a part.
+struct Form {
+    part: Vec<usize>,
+    unitary: DMatrix<C64>,
+    triangle: DMatrix<C64>,
+}
+
+impl Form {
+    fn of(matrix: &DMatrix<C64>, part: Vec<usize>) -> Result<Self, NoRoots> {
+        let own = matrix.select_rows(&part).select_columns(&part);
+        let size = own.nrows();
+        let schur = |matrix: DMatrix<C64>| Schur::try_new(matrix, f64::EPSILON, SWEEPS * size).map(Schur::unpack);
+        if let Some((unitary, triangle)) = schur(own.clone()) {
+            return Ok(Self { part, unitary, triangle });
+        }
+        // An iteration that goes in a circle does not do so in other axes.
+        let mirror = mirror(size);
+        let (unitary, triangle) = schur(&mirror * own * &mirror).ok_or(NoRoots)?;
+        Ok(Self { part, unitary: mirror * unitary, triangle })
+    }
+
+    /// Its eigenvalues, those within a distance together, with vectors of the whole.
+    fn spaces(&self, whole: usize, same: f64) -> Vec<Eigenspace> {
+        let size = self.part.len();
+        let values: Vec<C64> = self.triangle.diagonal().iter().copied().collect();
+        let mut left: Vec<usize> = (0..size).collect();
+        let mut spaces = Vec::new();
+        while let Some(first) = left.first().copied() {
+            let is_same = |k: &usize| (values[*k] - values[first]).modulus() <= same;
+            let (group, others): (Vec<usize>, Vec<usize>) = left.iter().partition(|k| is_same(k));
+            left = others;
+            // A shift beside the eigenvalue by more than its rounding keeps the triangle regular.
+            let shift = values[first] + C64::new(0.3, 0.4) * (1e-3 * same).max(f64::MIN_POSITIVE);
+            let shifted = &self.triangle - DMatrix::from_diagonal_element(size, size, shift);
+            let start = DMatrix::from_fn(size, group.len(), |i, j| {
+                C64::new(libm::sin(1.0 + 1.7 * i as f64 + 2.3 * (j * i) as f64), 0.1)
+            });
+            let (mut right_vectors, mut left_vectors) = (start.clone(), start);
+            for _ in 0..3 {
+                shifted.solve_upper_triangular_mut(&mut right_vectors);
+                right_vectors = right_vectors.qr().q();
+                shifted.ad_solve_upper_triangular_mut(&mut left_vectors);
+                left_vectors = left_vectors.qr().q();
+            }
+            let [right, left] = [right_vectors, left_vectors].map(|vectors| self.spread(&vectors, whole));
+            spaces.push(Eigenspace { values: group.iter().map(|k| values[*k]).collect(), right, left });
+        }
+        spaces
+    }
+
+    /// Vectors of the whole matrix.
+    fn spread(&self, vectors: &DMatrix<C64>, whole: usize) -> DMatrix<C64> {
+        let own = &self.unitary * vectors;
+        let mut spread = DMatrix::zeros(whole, own.ncols());
+        for (row, at) in self.part.iter().enumerate() {
+            spread.row_mut(*at).copy_from(&own.row(row));
+        }
+        spread
+    }
+}
