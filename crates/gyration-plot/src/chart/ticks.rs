@@ -26,14 +26,14 @@ pub fn linear(low: f64, high: f64, count: usize) -> Vec<Tick> {
     let step = round_step(high - low, count);
     let decimals = decimals(step);
     // A dozen zeros are no words; what has a unit was given a prefix before.
-    let tiny = low.abs().max(high.abs()) < 1e-4;
+    let many = !(1e-4..1e7).contains(&low.abs().max(high.abs()));
     let tolerance = 1e-9 * (high - low);
     let (first, last) = (((low - tolerance) / step).ceil(), ((high + tolerance) / step).floor());
     (0..=(last - first).max(0.0) as usize)
         .map(|k| {
             // Multiplied, not accumulated; adding zero turns −0 into 0.
             let value = (first + k as f64) * step + 0.0;
-            let label = if tiny { short(value) } else { format!("{value:.decimals$}") };
+            let label = if many { short(value) } else { format!("{value:.decimals$}") };
             Tick { value, label: Some(label) }
         })
         .collect()
@@ -146,6 +146,7 @@ mod tests {
         assert_eq!(labels(&linear(3.0, 47.0, 6)), ["10", "20", "30", "40"]);
         assert_eq!(labels(&linear(0.0, 0.3, 3)), ["0.0", "0.1", "0.2", "0.3"]);
         assert_eq!(labels(&linear(-1e-17, 1.1e-17, 3)), ["-10^{-17}", "0", "10^{-17}"]);
+        assert_eq!(labels(&linear(0.0, 1.3e13, 3)), ["0", "5×10^{12}", "10^{13}"]);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! Where the bodies leave room for one another and the supports stand still, all times share one picture, as under a
 //! stroboscope; otherwise each time has a picture of its own.
 
+mod clock;
 mod frames;
 mod ground;
 mod marks;

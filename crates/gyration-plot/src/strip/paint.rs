@@ -3,7 +3,7 @@
 use super::frames::{FRAMES, Outlines, Strip};
 use super::ground::{Cut, Ground};
 use super::silhouette::Silhouette;
-use crate::chart::ticks::{decimals, length_in_words, round_step};
+use crate::chart::ticks::{length_in_words, round_step};
 use crate::draw::{Anchor, Color, Label, Page, Point, Rect, Stroke, Text, color};
 
 /// Height of times [pt].
@@ -131,13 +131,6 @@ impl Strip {
         }
         bottom
     }
-
-    /// Decimals [s] that tell the times apart to a tenth of their distance.
-    fn decimals(&self) -> usize {
-        let times = self.frames.iter().map(|frame| frame.time);
-        let nearest = times.clone().zip(times.skip(1)).map(|(a, b)| b - a).fold(f64::INFINITY, f64::min);
-        if nearest.is_finite() && nearest > 0.0 { decimals(nearest) + 1 } else { 3 }
-    }
 }
 
 pub(super) fn caption(words: &str, at: Point, anchor: Anchor) -> Text {
@@ -155,14 +148,14 @@ fn draw_shared(strip: &Strip, bounds: &Viewport, drawing: &mut Page, area: Rect)
     draw_grounds(&strip.frames[last].grounds, &map, drawing, frame);
     draw_paths(strip, &map, drawing, frame);
     let hue = |body: &Silhouette| color::series(strip.hues[body.body]);
-    let mut written: Vec<Rect> = Vec::new();
+    let (clock, mut written) = (strip.clock(), Vec::<Rect>::new());
     for (index, moment) in strip.frames.iter().enumerate() {
         let age = if last == 0 { 1.0 } else { index as f64 / last as f64 };
         moment.bodies.iter().for_each(|body| draw_body((body, hue(body)), 0.12 + 0.3 * age, &map, drawing, frame));
     }
     strip.mark_strays(&strip.frames[last], (bounds, &map), drawing);
     for moment in &strip.frames {
-        let words = time_in_words(moment.time, strip.decimals());
+        let words = clock.words(moment.time);
         write_time(moment, &words, &map, drawing, &mut written);
     }
     draw_scale_bar(scale, drawing, [frame.right(), frame.bottom() + 8.0]);
@@ -203,6 +196,7 @@ fn draw_frames(strip: &Strip, bounds: &Viewport, drawing: &mut Page, area: Rect)
     let cell_width = pitch(columns) - GUTTER;
     let scale = (cell_width / bounds.width()).min(MOST_HEIGHT / bounds.height());
     let size = [scale * bounds.width(), scale * bounds.height()];
+    let clock = strip.clock();
     for (index, moment) in strip.frames.iter().enumerate() {
         let x = area.x + pitch(columns) * (index % columns) as f64 + 0.5 * (cell_width - size[0]);
         let y = area.y + row_height(columns) * (index / columns) as f64;
@@ -213,15 +207,11 @@ fn draw_frames(strip: &Strip, bounds: &Viewport, drawing: &mut Page, area: Rect)
         moment.bodies.iter().for_each(|body| draw_body((body, hue(body)), 0.3, &map, drawing, cell));
         strip.mark_strays(moment, (bounds, &map), drawing);
         let at = [x + 0.5 * size[0], cell.bottom() + 1.1 * TIME_SIZE];
-        drawing.text(caption(&time_in_words(moment.time, strip.decimals()), at, Anchor::Middle));
+        drawing.text(caption(&clock.words(moment.time), at, Anchor::Middle));
     }
     let bottom = area.y + height(columns);
     draw_scale_bar(scale, drawing, [area.right(), bottom + 8.0]);
     bottom + 12.0
-}
-
-fn time_in_words(time: f64, decimals: usize) -> String {
-    format!("{time:.decimals$} s")
 }
 
 fn draw_paths(strip: &Strip, map: &PageMap, drawing: &mut Page, frame: Rect) {
