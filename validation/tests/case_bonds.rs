@@ -7,6 +7,7 @@
 //!   balls pressed with F, k = −F′   along 2√(k/m) s, across growth 2√(F/(m(2R + g))) s
 //!   cubes, side L, h = g/2          k = 2^−(ν+1) αd₀^ν [νL²(h^−(ν+1) + (h+L)^−(ν+1)) + 4L(h^−ν − (h+L)^−ν)]
 //!   balls with damping, ν′ = ν      δ = 2(β/α)F s²/m along
+//!   balls with friction, ν′ = ν     R = ½b|u_{n+1} − u_n − ½r(θ_n + θ_{n+1})|², b = (β/α)F, r = 2R + g
 
 use gyration_scene::Scene;
 use gyration_sim::survey::{BandOptions, BandSurvey, SystemRestState};
@@ -186,6 +187,44 @@ fn balls_in_a_row_that_press_on_one_another_pass_waves_on() {
     let damped = bands(&balls("damping = { beta = 200, nu = 6, d0 = 1e-4 }"), q);
     let decay = 2.0 * 2.0 * force * s * s / mass();
     case.by("δ = 2(β/α)F s²/m").check("decay along [1/s]", decay, nearest(&damped.decay[0], decay), 1e-8);
+}
+
+#[test]
+fn balls_in_a_row_that_rub_roll_on_one_another_as_they_buckle() {
+    let case = Case {
+        row: None,
+        name: "bands of a chain of balls with friction, q = 0.4π",
+        source: "Im λ³ + b(4s²I + r²c²m) λ² − Ig λ − br²c²g = 0, g = 4Fs²/r",
+    };
+    let (force, resistance, spacing) = (5.1713459e-7, 3.0 * 5.1713459e-7, 2.0 * RADIUS + GAP);
+    let (s, c) = (0.2 * PI).sin_cos();
+    let (mass, inertia) = (mass(), 0.4 * mass() * RADIUS * RADIUS);
+    let (slide, turn) = (4.0 * s * s, (spacing * c).powi(2));
+    let push = slide * force / spacing;
+    let cubic = |root: f64| {
+        let quadratic = resistance * (slide * inertia + turn * mass);
+        ((inertia * mass * root + quadratic) * root - inertia * push) * root - resistance * turn * push
+    };
+    // The rate with which the chain would buckle without friction, and the decay of a slip, bound them.
+    let (fast, slip) = ((push / mass).sqrt(), resistance * (slide / mass + turn / inertia));
+    let root = |mut low: f64, mut high: f64| {
+        assert!(cubic(low) * cubic(high) < 0.0);
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            *(if cubic(low) * cubic(middle) > 0.0 { &mut low } else { &mut high }) = middle;
+        }
+        low
+    };
+    let found = bands(&balls("friction = { beta = 300, nu = 6, d0 = 1e-4 }"), 0.4 * PI);
+    let real: Vec<f64> = found.lambda[0].iter().filter(|root| root[1] == 0.0).map(|root| root[0]).collect();
+    for (name, expected) in [
+        ("growth across, rolling [1/s]", root(0.0, fast)),
+        ("decay across, rolling [1/s]", root(-fast, 0.0)),
+        ("decay of a slip [1/s]", root(-slip - fast, -fast)),
+    ] {
+        // F has nine digits.
+        case.check(name, expected, nearest(&real, expected), 1e-8);
+    }
 }
 
 #[test]

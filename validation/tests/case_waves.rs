@@ -154,6 +154,47 @@ fn a_packet_runs_at_the_group_velocity_and_grows_wider() {
     case.check("its width then, by ω″ [cells]", 25.098, width, 3e-3);
 }
 
+#[test]
+fn a_packet_whose_waves_all_run_forwards_keeps_its_middle_on_time() {
+    let case = Case {
+        row: None,
+        name: "packet in a chain of masses, κ 0.1, w 25, its waves with frequencies of their own",
+        source: "Σ_κ of C e^{i(kn − ω(κ)t)}, C e^{−n²/2w²} transformed, middle and width of C C*",
+    };
+    // Waves of a ring of 300 about κ = 30/300 whose amplitudes are those of the packet, to 6.5 widths of 300/2πw.
+    let (cells, width) = (300_usize, 25.0);
+    let spread = cells as f64 / (TAU * width);
+    let amplitude = |j: usize| 1e-6 * (-0.5 * ((j as f64 - 30.0) / spread).powi(2)).exp() / (spread * TAU.sqrt());
+    let kappa = |j: usize| j as f64 / cells as f64;
+    let waves = 18..43;
+    let list = waves
+        .clone()
+        .map(|j| format!("{{ kappa = [{:?}, 0, 0], branch = 2, amplitude = {:?} }}", kappa(j), amplitude(j)));
+    let text = masses(cells, &format!("[{}]", list.collect::<Vec<_>>().join(", ")), "0.5*40*(l - 0.1)^2");
+    let experiment = Experiment::of_scene(&text).until(40.0);
+    let end = experiment.run().end;
+    let omega = |j: usize| 2.0 * 80_f64.sqrt() * (0.5 * TAU * kappa(j)).sin();
+    let rest = vec![0.0; cells];
+    let found: Vec<_> = waves.map(|j| (j, component(&experiment.model, &end, &rest, (kappa(j), omega(j))))).collect();
+    // |C_n|² about where the packet is expected, half of the ring to each side.
+    let weights: Vec<(f64, f64)> = (0..cells)
+        .map(|n| {
+            let place = 190.0 + n as f64;
+            let sum = found.iter().fold([0.0, 0.0], |[re, im], (j, [a, b])| {
+                let (sine, cosine) = (TAU * kappa(*j) * place).sin_cos();
+                [re + a * cosine - b * sine, im + a * sine + b * cosine]
+            });
+            (place, sum[0] * sum[0] + sum[1] * sum[1])
+        })
+        .collect();
+    let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
+    let middle = weights.iter().map(|(place, weight)| place * weight).sum::<f64>() / total;
+    let square = weights.iter().map(|(place, weight)| (place - middle).powi(2) * weight).sum::<f64>() / total;
+    // The list has five digits.
+    case.check("cells in 40 s", 340.23, middle, 2e-5);
+    case.check("its width then [cells]", 25.098, (2.0 * square).sqrt(), 2e-5);
+}
+
 /// The energy of a state beyond that of the scene as it is written [J], and how many waves of its ring run.
 fn energy_of_waves(text: &str, cells: usize) -> (f64, usize) {
     let scene = Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap();
