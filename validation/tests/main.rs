@@ -36,6 +36,7 @@ mod gallery_double_well;
 mod gallery_elastic;
 mod gallery_euler_disk;
 mod gallery_fluid;
+mod gallery_lattices;
 mod gallery_meetings;
 mod gallery_rattleback;
 mod gallery_rock;

@@ -50,6 +50,14 @@ static SCENES: &[(&str, &str)] = &[
     ("dominoes", include_str!("../../../scenes/dominoes.toml")),
     ("overhang", include_str!("../../../scenes/overhang.toml")),
     ("soft-collision", include_str!("../../../scenes/soft-collision.toml")),
+    ("diatomic", include_str!("../../../scenes/diatomic.toml")),
+    ("affine-chain", include_str!("../../../scenes/affine-chain.toml")),
+    ("kagome", include_str!("../../../scenes/kagome.toml")),
+    ("contact-chain", include_str!("../../../scenes/contact-chain.toml")),
+    ("wave-gap", include_str!("../../../scenes/wave-gap.toml")),
+    ("active-chain", include_str!("../../../scenes/active-chain.toml")),
+    ("gyroscopes", include_str!("../../../scenes/gyroscopes.toml")),
+    ("molecule-crystal", include_str!("../../../scenes/molecule-crystal.toml")),
 ];
 
 /// Name and text of each scene of the gallery.
