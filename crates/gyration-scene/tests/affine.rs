@@ -261,11 +261,13 @@ fn what_is_recorded_on_request_stands_beside_the_plan() {
     assert_eq!(scene("").built().record, Record::default());
     assert!(scene("").resolved().get("record").is_none());
     let words = "velocity_gradient affine_momentum_total affine_moment moment_power comoving_momentum momentum_residual \
-                 principal_stretches rotation cauchy_stress stress";
+                 principal_stretches rotation cauchy_stress stress force_total moment_total force_by_kind moment_by_kind \
+                 affine_moment_total friction_moment kinetic_tensor canonical_momentum kinetic_energy elastic_gradient \
+                 elastic_stress eshelby";
     let quoted: Vec<String> = words.split(' ').map(|word| format!("\"{word}\"")).collect();
     let asked = scene(&format!("[record]\nquantities = [{}]\norigin = [0, 0, \"2 cm\"]", quoted.join(", ")));
     let Record { quantities, origin } = &asked.built().record;
     assert_eq!(*origin, Vec3::new(0.0, 0.0, 0.02));
-    assert_eq!((quantities.len(), quantities[0], quantities[9]), (10, Recorded::VelocityGradient, Recorded::Stress));
+    assert_eq!((quantities.len(), quantities[9], quantities[21]), (22, Recorded::Stress, Recorded::Eshelby));
     assert_resolves_to_itself(&asked);
 }

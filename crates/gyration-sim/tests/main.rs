@@ -7,6 +7,7 @@ mod corpus;
 mod counts;
 mod deforming;
 mod dissipation;
+mod equations;
 mod interruptions;
 mod islands;
 mod joined;

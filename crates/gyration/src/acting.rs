@@ -65,6 +65,28 @@ pub(crate) struct Interacting<C, S, B, P> {
     pub pairs: P,
 }
 
+/// A kind of load, as forces and moments are told by: each load is of one kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoadKind {
+    /// All laws with supports, their friction included.
+    Contact,
+    /// All laws with other bodies.
+    Pair,
+    /// Springs and bonds, with their dashpots.
+    Spring,
+    /// The fluid, buoyancy included.
+    Drag,
+    /// Friction that is linear in the velocities of the body.
+    Friction,
+    /// What a scene or a controller writes: couples, potentials, body forces, gyroscopic loads.
+    Load,
+}
+
+impl LoadKind {
+    /// How many there are.
+    pub const COUNT: usize = 6;
+}
+
 /// A load on a body.
 #[derive(Debug, Clone, Copy)]
 pub enum Load<'a> {
@@ -166,6 +188,21 @@ impl<'a> Load<'a> {
             | Self::OwnFriction(_)
             | Self::MassFriction(_)
             | Self::Fluid(..) => true,
+        }
+    }
+
+    /// The kind that its force and its moment are told under.
+    pub fn kind(&self) -> LoadKind {
+        match self {
+            Self::Contact(_) => LoadKind::Contact,
+            Self::Pair(_) => LoadKind::Pair,
+            Self::Spring(_) | Self::Bond(_) => LoadKind::Spring,
+            Self::Fluid(..) => LoadKind::Drag,
+            Self::Resistance(resistance) if resistance.dissipates() => LoadKind::Friction,
+            Self::OwnFriction(_) | Self::MassFriction(_) => LoadKind::Friction,
+            Self::Couple(_) | Self::Applied(_) | Self::Resistance(_) | Self::Potential(_) | Self::BodyForce(_) => {
+                LoadKind::Load
+            }
         }
     }
 

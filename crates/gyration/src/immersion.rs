@@ -9,8 +9,7 @@
 //! aspect ratio r moves on an orbit C = √((p·g)² + (p·e)²/r²)/|p·v| (Leal and Hinch), told as C/(1 + C). What does not
 //! apply is NaN. Source: Batchelor (1970); `docs/theory-fluid.md`.
 
-use crate::body::Slots;
-use crate::dynamics::{RigidHistory, RigidImmersion, Scratch, body_rates, immersion};
+use crate::dynamics::{RigidImmersion, Scratch, history_reaction, immersion};
 use crate::fluid::{Fluid, Immersed};
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, KindAt, MotionAt};
@@ -82,22 +81,6 @@ fn rigid(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<Option<Tract
         form: at.body.solid.shape.semi_axes().map(|axes| (*rotation, axes.into())),
         is_ellipsoid: true,
     }))
-}
-
-/// Force and torque of the history, added mass included, in the axes of space.
-fn history_reaction(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<(Vec3, Vec3), Inadmissible> {
-    let Some(sphere) = RigidHistory::of(at, turn) else { return Ok((Vec3::zeros(), Vec3::zeros())) };
-    let slots = Slots::with_inertia(at.body, 0);
-    let mut rates = scratch.take_numbers(slots.block().len());
-    let done = body_rates(at, &slots, scratch, &mut rates);
-    let [linear, angular] = [slots.velocity(), slots.rate()].map(|slot| Vec3::from_column_slice(&rates[slot]));
-    scratch.give_back(rates);
-    done?;
-    let turned = at.motion.placement.gradient * angular;
-    Ok((
-        sphere.loads.force - sphere.history.added_mass * linear,
-        sphere.loads.torque - sphere.history.added_inertia * turned,
-    ))
 }
 
 fn deformable(at: &MotionAt, fluid: &Fluid) -> Result<Option<Tractions>, Inadmissible> {

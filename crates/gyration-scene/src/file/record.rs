@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct Record {
     /// Which quantities.
     pub quantities: Vec<Recorded>,
-    /// The point about which total affine momentum is taken (m).
+    /// The point about which total affine momentum and moment are taken (m).
     pub origin: [Length; 3],
 }
 
@@ -50,4 +50,28 @@ pub enum Recorded {
     ConstraintForce,
     /// N = P Mᵀ, the affine moment of `keep` (N m).
     ConstraintMoment,
+    /// f, the force of all loads but the weight and the reaction of a pin (N).
+    ForceTotal,
+    /// M, the affine moment of the same loads about the centre of mass or the pin (N m).
+    MomentTotal,
+    /// f of supports, other bodies, springs, fluid, friction and what else is loaded on the body, each apart (N).
+    ForceByKind,
+    /// M of the same kinds, each apart (N m).
+    MomentByKind,
+    /// Affine moment about the origin, N + (p₀ − o) ⊗ f (N m).
+    AffineMomentTotal,
+    /// D, the affine moment of internal and of linear friction (N m).
+    FrictionMoment,
+    /// Ṗ J Ṗᵀ, twice the derivative of the kinetic energy by the metric (J).
+    KineticTensor,
+    /// Ṗ J, the momentum conjugate to P (kg m²/s).
+    CanonicalMomentum,
+    /// ½ m|ṗ₀|² of the centre of mass and ½ tr(Ṗ J Ṗᵀ) about it, each apart (J).
+    KineticEnergy,
+    /// F = P G⁻¹.
+    ElasticGradient,
+    /// The elastic part S_e of the first Piola stress, without pressure and friction (Pa).
+    ElasticStress,
+    /// Eshelby's stress A = Fᵀ S Gᵀ − det G φ I, which drives the contraction (Pa).
+    Eshelby,
 }

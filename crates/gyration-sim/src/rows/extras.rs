@@ -1,60 +1,48 @@
 //! Quantities that are recorded on request.
 
-use super::fields::{BodyField, EXTRA_FIELDS, OF_CONTACTS, OF_GUIDES, OF_PLACES};
+use super::extra_fields::{Source, extra_fields};
+use super::fields::BodyField;
 use gyration::tensor::Vec3;
 use gyration_scene::Recorded;
 
-/// How many of the fields are of homogeneous strain.
-const OF_STRAIN: usize = EXTRA_FIELDS.len() - OF_CONTACTS - OF_PLACES - OF_GUIDES;
-
-/// A set of quantities recorded on request; the words of the scene stand in the order of the fields.
+/// A set of quantities recorded on request.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Extras {
-    asked: [bool; EXTRA_FIELDS.len()],
-    /// The point about which total affine momentum is taken [m].
+    /// A bit for each word of the scene.
+    asked: u64,
+    /// The point about which total affine momentum and moment are taken [m].
     pub origin: Vec3,
 }
 
 impl Extras {
     /// The set of some quantities.
     pub fn new(quantities: impl IntoIterator<Item = Recorded>, origin: Vec3) -> Self {
-        let mut extras = Self { origin, ..Self::default() };
-        for quantity in quantities {
-            extras.asked[quantity as usize] = true;
-        }
-        extras
+        quantities.into_iter().fold(Self { asked: 0, origin }, Self::and)
     }
 
     /// This set and one quantity more.
     #[must_use]
     pub fn and(mut self, quantity: Recorded) -> Self {
-        self.asked[quantity as usize] = true;
+        self.asked |= bit(quantity);
         self
     }
 
-    /// Whether what is asked for needs the observation of homogeneous strain.
-    pub(super) fn are_homogeneous(&self) -> bool {
-        self.asked[..OF_STRAIN].contains(&true)
+    fn asks_for(&self, quantity: Recorded) -> bool {
+        self.asked & bit(quantity) != 0
     }
 
-    /// Whether what is asked for needs the contact force by its parts.
-    pub(super) fn are_of_contacts(&self) -> bool {
-        self.asked[OF_STRAIN..OF_STRAIN + OF_CONTACTS].contains(&true)
+    /// Whether something is asked for that is made of this.
+    pub(super) fn need(&self, source: Source) -> bool {
+        extra_fields().any(|extra| extra.source == source && self.asks_for(extra.word))
     }
 
-    /// Whether displacements are asked for.
-    pub(super) fn are_of_places(&self) -> bool {
-        self.asked[OF_STRAIN + OF_CONTACTS..][..OF_PLACES].contains(&true)
+    pub(super) fn fields(self) -> impl Iterator<Item = &'static BodyField> {
+        extra_fields().filter(move |extra| self.asks_for(extra.word)).map(|extra| &extra.field)
     }
+}
 
-    /// Whether the force of guides is asked for.
-    pub(super) fn are_of_guides(&self) -> bool {
-        self.asked[OF_STRAIN + OF_CONTACTS + OF_PLACES..].contains(&true)
-    }
-
-    pub(super) fn fields(&self) -> impl Iterator<Item = &'static BodyField> + use<> {
-        EXTRA_FIELDS.iter().zip(self.asked).filter_map(|(field, asked)| asked.then_some(field))
-    }
+fn bit(quantity: Recorded) -> u64 {
+    1 << quantity as u32
 }
 
 #[cfg(test)]
@@ -62,11 +50,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_word_of_the_scene_asks_for_the_array_of_its_name() {
-        for field in &EXTRA_FIELDS {
-            let word: Recorded = serde_json::from_value(field.name.into()).unwrap();
-            let asked: Vec<_> = Extras::new([word], Vec3::zeros()).fields().map(|field| field.name).collect();
-            assert_eq!(asked, [field.name]);
+    fn every_word_of_the_scene_asks_for_the_arrays_of_its_name() {
+        for extra in extra_fields() {
+            let name = extra.field.name;
+            let apart = |stem: &str| name.starts_with(stem) && !name.ends_with("_total");
+            let word = match name {
+                _ if name.starts_with("kinetic_energy") => "kinetic_energy",
+                _ if apart("force_") => "force_by_kind",
+                _ if apart("moment_") && !["moment_power"].contains(&name) => "moment_by_kind",
+                _ => name,
+            };
+            let word: Recorded = serde_json::from_value(word.into()).unwrap();
+            assert_eq!(word, extra.word, "{name}");
+            assert!(Extras::new([word], Vec3::zeros()).fields().any(|field| field.name == name));
         }
     }
 }

@@ -3,7 +3,7 @@
 //! One list serves the layout and the filling of a row, so that the two cannot disagree. The order is that of the CSV.
 
 use gyration::balance::BodyObservation;
-use gyration::dynamics::ContactParts;
+use gyration::dynamics::{ContactParts, LoadsByKind};
 use gyration::homogeneous::HomogeneousObservation;
 use gyration::immersion::ImmersionObservation;
 use gyration::tensor::{Mat3, Vec3};
@@ -34,6 +34,8 @@ pub(super) struct BodyContext<'a> {
     pub homogeneous: Option<&'a HomogeneousObservation>,
     /// Where they were asked for.
     pub contacts: Option<&'a ContactParts>,
+    /// Where they were asked for.
+    pub loads: Option<&'a LoadsByKind>,
     /// Where it was asked for, and a rest is known.
     pub displacement: Option<Vec3>,
     /// Where it was asked for, of a body with a guide.
@@ -177,54 +179,6 @@ pub(super) const PRESSURE: &str = "pressure";
 pub(super) const GAP: &str = "gap";
 pub(super) const CONTACT_FORCE: &str = "contact_force";
 
-/// A field that is recorded on request, of what is observed: NaN where it was not.
-macro_rules! extra {
-    ($of:ident, $name:literal, $units:literal, $description:literal, $rank:ident, $field:ident, $nothing:expr) => {
-        BodyField {
-            name: $name,
-            units: $units,
-            description: $description,
-            rank: Rank::$rank,
-            suffixes: &[],
-            value: |context| FieldValue::$rank(context.$of.map_or($nothing, |found| found.$field)),
-        }
-    };
-}
-
-/// The fields that are recorded on request, in the order of `gyration_scene::Recorded`.
-#[rustfmt::skip]
-pub(super) static EXTRA_FIELDS: [BodyField; 16] = [
-    extra!(homogeneous, "velocity_gradient", "1/s", "velocity gradient L = Pdot P^-1", Matrix, velocity_gradient, NO_MATRIX),
-    extra!(homogeneous, "affine_momentum_total", "kg m2/s", "affine momentum about the origin asked for", Matrix, total_affine_momentum, NO_MATRIX),
-    extra!(homogeneous, "affine_moment", "N m", "affine moment of forces N = P M^T", Matrix, affine_moment, NO_MATRIX),
-    extra!(homogeneous, "moment_power", "W", "power tr(N L) of the affine moment", Scalar, moment_power, f64::NAN),
-    extra!(homogeneous, "comoving_momentum", "kg m2/s", "co-moving affine momentum P^-1 K P^-T", Matrix, comoving_affine_momentum, NO_MATRIX),
-    extra!(homogeneous, "momentum_residual", "N m", "residual of the balance of affine momentum", Matrix, momentum_residual, NO_MATRIX),
-    extra!(homogeneous, "principal_stretches", "1", "principal stretches, descending", Vector, principal_stretches, NO_VECTOR),
-    extra!(homogeneous, "rotation", "1", "rotation R of P = R U", Matrix, rotation, NO_MATRIX),
-    extra!(homogeneous, "cauchy_stress", "Pa", "Cauchy stress S P^T/det P", Matrix, cauchy_stress, NO_MATRIX),
-    extra!(homogeneous, "stress", "Pa", "first Piola stress S; the mean stress of a rigid body", Matrix, stress, NO_MATRIX),
-    extra!(contacts, "normal_force", "N", "contact forces along their normals, summed", Scalar, normal, f64::NAN),
-    extra!(contacts, "tangential_force", "N", "contact forces across normals, summed", Scalar, tangential, f64::NAN),
-    extra!(contacts, "pair_force", "N", "force of all other bodies that it meets", Vector, of_bodies, NO_VECTOR),
-    BodyField {
-        name: "displacement",
-        units: "m",
-        description: "position of the centre of mass less that at rest",
-        rank: Rank::Vector,
-        suffixes: &[],
-        value: |context| FieldValue::Vector(context.displacement.unwrap_or(NO_VECTOR)),
-    },
-    extra!(reaction, "constraint_force", "N", "force of `keep` on the centre of mass", Vector, force, NO_VECTOR),
-    extra!(reaction, "constraint_moment", "N m", "affine moment N = P M^T of `keep`", Matrix, moment, NO_MATRIX),
-];
-
-/// How many of them, at the end, are of contacts, then of places and then of guides; those before are of homogeneous
-/// strain.
-pub(super) const OF_CONTACTS: usize = 3;
-pub(super) const OF_PLACES: usize = 1;
-pub(super) const OF_GUIDES: usize = 2;
-
 /// A field of bodies in a fluid: NaN for any other.
 macro_rules! immersed {
     ($name:literal, $units:literal, $description:literal, $rank:ident, $nothing:expr, $value:expr) => {
@@ -255,5 +209,5 @@ pub(super) static IMMERSED_FIELDS: [BodyField; 11] = [
     immersed!("orbit_constant", "1", "C/(1 + C) of the orbit of a body of revolution in simple shear", Scalar, f64::NAN, |immersed| immersed.orbit_constant),
 ];
 
-const NO_VECTOR: Vec3 = Vec3::new(f64::NAN, f64::NAN, f64::NAN);
-const NO_MATRIX: Mat3 = Mat3::from_array_storage(nalgebra::ArrayStorage([[f64::NAN; 3]; 3]));
+pub(super) const NO_VECTOR: Vec3 = Vec3::new(f64::NAN, f64::NAN, f64::NAN);
+pub(super) const NO_MATRIX: Mat3 = Mat3::from_array_storage(nalgebra::ArrayStorage([[f64::NAN; 3]; 3]));

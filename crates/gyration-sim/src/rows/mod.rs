@@ -3,11 +3,13 @@
 //! Columns stand in the order of the contract: for each body x, P, v, Ṗ, G, pressure, gap, force; then energies, works,
 //! residual.
 
+mod extra_fields;
 mod extras;
 mod fields;
 
 pub use extras::Extras;
 
+use extra_fields::Source;
 use fields::{
     BODY_FIELDS, BodyContext, BodyField, CONTACT_FORCE, CONTRACTION, CONTRACTION_VELOCITY, DRIVE, FieldValue, GAP,
     IMMERSED_FIELDS, PRESSURE, Rank, Reaction,
@@ -15,7 +17,7 @@ use fields::{
 use gyration::Inadmissible;
 use gyration::balance::{BodyObservation, energies, energies_at, observe_at};
 use gyration::body::Body;
-use gyration::dynamics::{ContactParts, Workspace, acting, contact_parts, reaction};
+use gyration::dynamics::{ContactParts, LoadsByKind, Workspace, acting, contact_parts, loads_by_kind, reaction};
 use gyration::homogeneous::{HomogeneousObservation, observe_homogeneous};
 use gyration::immersion::{ImmersionObservation, observe_immersion};
 use gyration::load::Loads;
@@ -32,6 +34,8 @@ pub struct Fields {
     origin: Option<Vec3>,
     /// Whether contact forces are asked for by their parts.
     by_parts: bool,
+    /// Whether loads are asked for kind by kind.
+    by_kind: bool,
     /// Whether displacements are asked for.
     displacements: bool,
     /// Whether the force of guides is asked for.
@@ -46,6 +50,7 @@ pub struct RowScratch {
     bodies: Vec<BodyObservation>,
     homogeneous: Vec<HomogeneousObservation>,
     contacts: Vec<ContactParts>,
+    loads: Vec<LoadsByKind>,
     reactions: Vec<Option<Reaction>>,
     immersed: Vec<Option<ImmersionObservation>>,
     /// The row last filled, flattened in the order of [`Fields::arrays`].
@@ -60,9 +65,10 @@ impl Fields {
         let immersed = model.fluid.is_some() && model.bodies.iter().any(|body| body.inclusion.is_some());
         let in_fluid = IMMERSED_FIELDS.iter().filter(|_| immersed);
         let fields = usual.chain(in_fluid).chain(extras.fields()).collect();
-        let origin = extras.are_homogeneous().then_some(extras.origin);
-        let (by_parts, displacements) = (extras.are_of_contacts(), extras.are_of_places());
-        Self { fields, origin, by_parts, displacements, reactions: extras.are_of_guides(), immersed }
+        let origin = extras.need(Source::Strain).then_some(extras.origin);
+        let [by_parts, by_kind, displacements, reactions] =
+            [Source::Contacts, Source::Loads, Source::Rest, Source::Guide].map(|source| extras.need(source));
+        Self { fields, origin, by_parts, by_kind, displacements, reactions, immersed }
     }
 
     /// The arrays of a recording of this model, and the order of its CSV columns.
@@ -93,10 +99,11 @@ impl Fields {
         initial: Option<f64>,
         scratch: &mut RowScratch,
     ) -> Result<Audit, Inadmissible> {
-        let RowScratch { bodies, homogeneous, contacts, reactions, immersed, row } = scratch;
+        let RowScratch { bodies, homogeneous, contacts, loads, reactions, immersed, row } = scratch;
         bodies.clear();
         homogeneous.clear();
         contacts.clear();
+        loads.clear();
         reactions.clear();
         immersed.clear();
         row.clear();
@@ -110,6 +117,9 @@ impl Fields {
             }
             if self.by_parts {
                 contacts.push(contact_parts(&at, scratch)?);
+            }
+            if self.by_kind {
+                loads.push(loads_by_kind(&at, scratch)?);
             }
             if self.reactions {
                 let gradient = at.motion.placement.gradient;
@@ -128,6 +138,7 @@ impl Fields {
                     body,
                     homogeneous: homogeneous.get(index),
                     contacts: contacts.get(index),
+                    loads: loads.get(index),
                     reaction: reactions.get(index).and_then(Option::as_ref),
                     displacement: self.displacements.then(|| displacement(index)).flatten(),
                     immersed: immersed.get(index).and_then(Option::as_ref),

@@ -179,6 +179,12 @@ impl AffineBody {
         stress
     }
 
+    /// The same as a matrix; zero without such friction.
+    pub(crate) fn medium_friction(&self, at: &Gyration) -> Mat3 {
+        let stress = self.medium_stress(at, &SimdMat3::of(&at.velocity_gradient));
+        stress.map_or(Mat3::zeros(), |stress| stress.matrix())
+    }
+
     /// A body of the same inertia with that friction alone; none without it.
     pub(crate) fn medium(&self) -> Option<Self> {
         let viscosity = self.viscosity.newtonian();

@@ -7,12 +7,14 @@
 
 mod affine;
 mod body_rates;
+mod by_kind;
 mod contact_parts;
 mod contacts;
 mod contractile;
 mod gaps;
 mod guided;
 mod history;
+mod history_reaction;
 mod immersed;
 mod inertialess;
 mod jacobian;
@@ -22,6 +24,7 @@ mod pushes;
 mod rates;
 mod rigid;
 
+pub use by_kind::{LoadsByKind, loads_by_kind};
 pub use contact_parts::{ContactParts, contact_parts};
 pub use contacts::{gap_to_supports, nearest};
 pub use gaps::gap_at;
@@ -33,8 +36,9 @@ pub use rates::{jacobian, rates};
 
 pub(crate) use affine::{balance as affine_balance, moment};
 pub(crate) use body_rates::body_rates;
+pub(crate) use by_kind::{about_pin, linear_friction, of_history};
 pub(crate) use contractile::ContractileMotion;
-pub(crate) use history::RigidHistory;
+pub(crate) use history_reaction::history_reaction;
 pub(crate) use immersed::{RigidImmersion, immersion};
 
 use crate::body::Body;
