@@ -5,7 +5,7 @@
 //! refused here else.
 
 use crate::errors;
-use numpy::{PyArray, PyArrayMethods};
+use numpy::{Element, PyArray, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
@@ -208,6 +208,20 @@ pub fn shown(object: &Bound<'_, PyAny>) -> String {
 }
 
 /// Numbers as an array of NumPy of this shape.
-pub fn array<'py>(py: Python<'py>, numbers: Vec<f64>, shape: &[usize]) -> PyResult<Bound<'py, PyAny>> {
+pub fn array<'py, T: Element>(py: Python<'py>, numbers: Vec<T>, shape: &[usize]) -> PyResult<Bound<'py, PyAny>> {
     Ok(PyArray::from_vec(py, numbers).reshape(shape.to_vec())?.into_any())
+}
+
+/// The items of a list in an object of JSON.
+pub fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {
+    value[name].as_array().map_or(&[], Vec::as_slice)
+}
+
+/// All numbers in a value, in their order.
+pub fn numbers(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Array(items) => items.iter().flat_map(numbers).collect(),
+        Value::Number(number) => number.as_f64().into_iter().collect(),
+        _ => Vec::new(),
+    }
 }

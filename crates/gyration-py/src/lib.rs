@@ -5,7 +5,7 @@
 //!      ├─→ Simulation: step, look, apply, step
 //!      ├─→ run_many → Runs: arrays of endings
 //!      ├─→ study → Table: rows of thousands of runs
-//!      └─→ modes, resistance, sensitivities
+//!      └─→ modes, bands, resistance, sensitivities
 //! measurements ─→ calibrate → Fit: numbers of a scene, their errors
 //! ```
 //!
@@ -13,16 +13,18 @@
 //! bytes of the program. The interpreter's lock is released while the engine computes. The documentation that a user
 //! reads stands in `python/gyration/_gyration.pyi` and `__init__.py`.
 
-mod analysis;
 mod arrays;
+mod bands;
 mod calibration;
 mod convert;
 mod errors;
 mod many;
+mod modes;
 mod monitor;
 mod parcel;
 mod picture;
 mod recording;
+mod resistance;
 mod run;
 mod scene;
 mod sensitivities;
@@ -38,7 +40,7 @@ use std::ffi::OsString;
 #[pymodule]
 mod _gyration {
     #[pymodule_export]
-    use super::analysis::{modes, resistance};
+    use super::bands::bands;
     #[pymodule_export]
     use super::calibration::{Fit, calibrate};
     #[pymodule_export]
@@ -46,11 +48,15 @@ mod _gyration {
     #[pymodule_export]
     use super::many::{Runs, run_many};
     #[pymodule_export]
+    use super::modes::modes;
+    #[pymodule_export]
     use super::picture::Picture;
     #[pymodule_export]
     use super::program;
     #[pymodule_export]
     use super::recording::Recording;
+    #[pymodule_export]
+    use super::resistance::resistance;
     #[pymodule_export]
     use super::scene::{Scene, scene_again, scenes};
     #[pymodule_export]

@@ -14,7 +14,8 @@ Lengths are in m, masses in kg, times in s, forces in N, angles in rad. Vectors 
 :class:`Simulation`  a run stepped by hand: look, apply forces, change drives
 :func:`run_many`     many scenes on all cores, and what they ended with
 :func:`study`        thousands of runs over parameters, into one table; on many machines
-:func:`modes`        rest states and the small motions about them
+:func:`modes`        rest states and the small motions about them, of bodies and of systems
+:func:`bands`        waves through lattices: frequencies, decay rates, speeds, shapes
 :func:`resistance`   forces on a body in a viscous fluid
 :func:`sensitivities` derivatives of what is recorded by any number of a scene
 :func:`calibrate`    numbers of the laws from measurements, with their errors
@@ -40,6 +41,7 @@ from gyration._gyration import (
     Simulation,
     Table,
     __version__,
+    bands,
     calibrate,
     modes,
     resistance,
@@ -68,6 +70,7 @@ __all__ = [
     "StudyError",
     "Table",
     "__version__",
+    "bands",
     "calibrate",
     "modes",
     "resistance",

@@ -22,6 +22,7 @@ __all__ = [
     "_says_stop",
     "_scene",
     "_study_rows",
+    "bands",
     "calibrate",
     "modes",
     "resistance",
@@ -271,7 +272,21 @@ class _Work:
 def scenes() -> list[str]: ...
 def studies() -> list[str]: ...
 def _says_stop(answer: object) -> bool: ...
-def modes(scene: _SceneLike) -> dict[str, dict[str, Any]]: ...
+def modes(scene: _SceneLike) -> dict[str | tuple[str, ...], dict[str, Any]]: ...
+def bands(
+    scene: _SceneLike,
+    path: str | None = None,
+    *,
+    points: int = 101,
+    mesh: int | None = None,
+    shapes: bool = False,
+    strain: str | None = None,
+    complex: bool = False,
+    direction: int = 1,
+    omega: tuple[float, float] | None = None,
+    along: str | None = None,
+    steps: int = 21,
+) -> dict[str, Any]: ...
 def resistance(
     scene: _SceneLike,
     body: str | None = None,
