@@ -4,6 +4,7 @@
 // is drawn unless one of them has changed.
 
 import type { Outcome, Summary } from "./data/header";
+import { Cells } from "./data/lattice";
 import type { Recording } from "./data/recording";
 import type { Listener, Progress, Source } from "./data/source";
 import type { Handle } from "./handle";
@@ -12,6 +13,7 @@ import { Sliders } from "./live/sliders";
 import { RunStatus } from "./live/status";
 import { Picture } from "./picture";
 import { Player } from "./player";
+import { BandsPanel } from "./ui/bands";
 import { Banner } from "./ui/banner";
 import { h, iconButton } from "./ui/dom";
 import { helpDialog, listen } from "./ui/help";
@@ -28,6 +30,10 @@ export class App implements Listener {
   private readonly player = new Player();
   private readonly transport = new Transport(this.player);
   private readonly plots = new Plots((time) => this.player.seek(time));
+  private readonly bands = new BandsPanel({
+    show: (wave) => this.showInPicture(wave),
+    back: () => this.showInPicture(null),
+  });
   private readonly banner = new Banner();
   private readonly picture: Picture;
   private readonly tabs: Tabs;
@@ -38,6 +44,8 @@ export class App implements Listener {
   private status: RunStatus | null = null;
   private source: Source | null = null;
   private recording: Recording | null = null;
+  /** What the picture shows instead of the recording, if it does. */
+  private wave: Recording | null = null;
   private becameReady: () => void = () => {};
 
   constructor(page: HTMLElement) {
@@ -93,18 +101,23 @@ export class App implements Listener {
 
   begun(recording: Recording): void {
     this.recording = recording;
+    this.wave = null;
     const { header } = recording;
     document.title = `${header.title ?? header.scene_name ?? "Recording"} – Gyration`;
     this.title.textContent = header.title ?? header.scene_name ?? "Recording";
-    this.mode.textContent = { report: "report", recording: "recording", live: "live" }[header.mode];
+    this.mode.textContent = header.mode;
     this.banner.clearError();
-    this.picture.load(recording);
-    this.player.load(recording);
-    this.transport.load(recording);
+    this.load(recording);
     this.sliders?.begun(header);
     this.status?.begun();
     this.tell();
     this.fillPanels();
+    // Waves are computed by the server: a report has none.
+    if (header.mode !== "report" && new Cells(header).hasWaves) {
+      this.bands.begun(recording);
+      this.tabs.set("Bands", this.bands.element);
+      if (this.tabs.shown === "Bands") this.bands.opened();
+    }
     this.picture.drawNow();
     this.becameReady();
     // The plots come after the first frame: what moves is looked at first.
@@ -117,9 +130,10 @@ export class App implements Listener {
   }
 
   grew(): void {
+    this.plots.grew();
+    if (this.wave) return;
     this.picture.grew();
     this.transport.grew();
-    this.plots.grew();
     this.moved(null);
   }
 
@@ -181,7 +195,25 @@ export class App implements Listener {
     this.tabs.set("Scene", scenePanel(this.recording.header));
   }
 
+  /** Gives picture and clock a recording. */
+  private load(recording: Recording): void {
+    this.picture.load(recording);
+    this.player.load(recording);
+    this.transport.load(recording);
+  }
+
+  /** Shows a wave, or the recording again. */
+  private showInPicture(wave: Recording | null): void {
+    const { recording } = this;
+    if (!recording || (!wave && !this.wave)) return;
+    this.wave = wave;
+    this.mode.textContent = wave ? "wave" : recording.header.mode;
+    this.load(wave ?? recording);
+    this.player.play();
+  }
+
   private opened(panel: string): void {
+    if (panel === "Bands") this.bands.opened();
     if (panel === "Plots") this.plots.draw();
     if (panel === "Summary" && this.recording) this.tabs.set("Summary", summaryPanel(this.recording));
   }
@@ -193,7 +225,8 @@ export class App implements Listener {
   }
 
   private pointPlots(): void {
-    if (this.recording) this.plots.pointAt(this.player.time, this.recording.rowAt(this.player.time));
+    if (this.recording && !this.wave)
+      this.plots.pointAt(this.player.time, this.recording.rowAt(this.player.time));
   }
 
   private switchTheme(): void {
@@ -208,7 +241,7 @@ export class App implements Listener {
 
   private handleWith(ready: Promise<void>): Handle {
     const { player, picture } = this;
-    const rows = () => this.recording?.rows ?? 0;
+    const rows = () => (this.wave ?? this.recording)?.rows ?? 0;
     return {
       ready,
       get time() {

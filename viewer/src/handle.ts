@@ -5,7 +5,7 @@ export interface Handle {
   ready: Promise<void>;
   /** The time that is shown [s]. */
   readonly time: number;
-  /** Samples that are there. */
+  /** Samples that are there of what the picture shows. */
   readonly rows: number;
   /** Frames drawn so far. */
   readonly frame: number;

@@ -34,7 +34,7 @@ mod stepping;
 mod sum;
 mod summary;
 pub mod survey;
-mod waves;
+pub mod waves;
 
 pub use adapter::Tolerance;
 pub use first_steps::FirstSteps;

@@ -4,6 +4,7 @@
 //! recording ─→ Stored ──┬─→ report: one HTML file with everything in it
 //!                       └─→ Server ─→ page: header (JSON), blobs (arrays)
 //! scene ─→ Live (a thread that runs it) ─→ Server ─→ page: websocket
+//! lattice ─→ Waves ─→ Server ─→ page: bands, a wave as rows of one period
 //! ```
 //!
 //! The page is built from `viewer/` and embedded ([`page`]); it knows recordings only: [`header`] says what one is
@@ -22,6 +23,7 @@ pub mod page;
 mod report;
 mod server;
 mod stored;
+mod waves;
 
 pub use error::ViewError;
 pub use live::{Live, Wish};

@@ -5,6 +5,7 @@ use crate::computed::Computed;
 use crate::error::ViewError;
 use crate::header::Header;
 use gyration_record::{RecordError, Recording};
+use gyration_scene::Scene;
 use serde_json::Value;
 use std::ops::Range;
 use std::path::Path;
@@ -51,6 +52,14 @@ impl Stored {
     /// Where the recording is.
     pub fn path(&self) -> &Path {
         self.recording.path()
+    }
+
+    /// The scene that was run, ready to run again.
+    ///
+    /// # Errors
+    /// `Replay` if it is not to be had.
+    pub(crate) fn scene(&self) -> Result<Scene, ViewError> {
+        Ok(gyration_sim::replay::scene(&self.recording)?)
     }
 
     /// The bytes of a blob, see [`blob`]; of one that grows the rows asked for, one in `every` of them and the last.

@@ -8,3 +8,4 @@ mod corpus;
 mod live;
 mod recording;
 mod report;
+mod waves;

@@ -19,10 +19,10 @@ type Message =
   | { type: "error"; message: string; set?: string[] };
 
 /** A binary message taken apart. */
-export function unpacked(message: ArrayBuffer): { announced: Announced; payload: ArrayBuffer } {
+export function unpacked<Head = Announced>(message: ArrayBuffer): { announced: Head; payload: ArrayBuffer } {
   const length = new DataView(message).getUint32(0, true);
   const text = new TextDecoder().decode(new Uint8Array(message, 4, length));
-  return { announced: JSON.parse(text) as Announced, payload: message.slice(4 + length) };
+  return { announced: JSON.parse(text) as Head, payload: message.slice(4 + length) };
 }
 
 /** Rows of a payload: the times, then for each array its numbers. */

@@ -116,7 +116,7 @@ async function bytes(path: string): Promise<ArrayBuffer> {
 }
 
 /** What the server gives at a path relative to the address of the page, which has its token. */
-async function answer(path: string): Promise<Response> {
+export async function answer(path: string): Promise<Response> {
   const response = await fetch(path, { cache: "no-store" });
   if (!response.ok)
     throw new ServerError((await response.text()) || `The server answers ${response.status}.`);

@@ -1,11 +1,19 @@
-// The springs of a scene: from a body to a point of space, or between two bodies, as its resolved form tells them.
+// The springs of a scene: from a body to a point of space, or between two bodies, as its resolved form tells them; in a
+// lattice those of all cells.
 
 import type { Header, Json, Vec3 } from "./header";
+import { list, table, vector } from "./json";
+import { Cells } from "./lattice";
+
+/** More would be a tangle. */
+const MOST = 10_000;
 
 /** A material point of a body, from its centre of mass, or a point of space. */
 export interface SpringEnd {
   body: number | null;
   at: Vec3;
+  /** How far the image of the body is that is meant, beyond the end of a periodic lattice [m]. */
+  shift?: Vec3;
 }
 
 export interface Spring {
@@ -14,50 +22,48 @@ export interface Spring {
   rest: number;
 }
 
-/** All springs of the scene. */
+/** All springs of the scene; none where there are too many to tell apart. */
 export function springsOf(header: Header): Spring[] {
   const scene = table(header.resolved);
+  const cells = new Cells(header);
   const index = new Map(header.bodies.map((body, place) => [body.name, place]));
-  const anchored = list(scene.body).flatMap((body) => {
-    const place = index.get(String(table(body).name));
-    if (place === undefined) return [];
-    return list(table(body).spring).map((spring): Spring => {
-      const { point, anchor, rest_length } = table(spring);
-      return {
-        rest: Number(rest_length ?? 0),
-        ends: [
-          { body: place, at: vector(point) },
-          { body: null, at: vector(anchor) },
-        ],
-      };
+  const written =
+    list(scene.spring).length +
+    list(scene.body).reduce<number>((sum, body) => sum + list(table(body).spring).length, 0);
+  if (written * cells.count > MOST) return [];
+  return Array.from({ length: cells.count }, (_, number) => {
+    const bodyIn = (name: Json | undefined, cell: number) => index.get(cells.nameIn(String(name), cell));
+    const anchored = list(scene.body).flatMap((body) => {
+      const place = bodyIn(table(body).name, number);
+      if (place === undefined) return [];
+      return list(table(body).spring).map((spring) => toAnchor(spring, place, cells.place(cells.at(number))));
     });
-  });
-  const between = list(scene.spring).flatMap((spring): Spring[] => {
-    const [one, other] = list(table(spring).between).map((name) => index.get(String(name)));
-    const [here, there] = list(table(spring).points);
-    if (one === undefined || other === undefined) return [];
-    return [
-      {
-        rest: Number(table(spring).rest_length ?? 0),
-        ends: [
-          { body: one, at: vector(here) },
-          { body: other, at: vector(there) },
-        ],
-      },
-    ];
-  });
-  return [...anchored, ...between];
+    const between = list(scene.spring).flatMap((spring): Spring[] => {
+      const { between, points, cell, rest_length } = table(spring);
+      const other = cells.beside(cells.at(number), list(cell).map(Number));
+      const bodies = [bodyIn(list(between)[0], number), other && bodyIn(list(between)[1], other.number)];
+      const [one, two] = bodies;
+      if (one === undefined || two === undefined || two === null || !other) return [];
+      const [here, there] = list(points).map(vector);
+      const far = other.shift.some((part) => part !== 0) ? { shift: other.shift } : {};
+      const ends: [SpringEnd, SpringEnd] = [
+        { body: one, at: here ?? [0, 0, 0] },
+        { body: two, at: there ?? [0, 0, 0], ...far },
+      ];
+      return [{ rest: Number(rest_length ?? 0), ends }];
+    });
+    return [...anchored, ...between];
+  }).flat();
 }
 
-function table(value: Json | undefined): { [key: string]: Json } {
-  return typeof value === "object" && value !== null && !Array.isArray(value) ? value : {};
-}
-
-function list(value: Json | undefined): Json[] {
-  return Array.isArray(value) ? value : [];
-}
-
-function vector(value: Json | undefined): Vec3 {
-  const [x, y, z] = list(value).map(Number);
-  return [x ?? 0, y ?? 0, z ?? 0];
+function toAnchor(spring: Json, body: number, away: Vec3): Spring {
+  const { point, anchor, rest_length } = table(spring);
+  const there = vector(anchor).map((part, axis) => part + away[axis]) as Vec3;
+  return {
+    rest: Number(rest_length ?? 0),
+    ends: [
+      { body, at: vector(point) },
+      { body: null, at: there },
+    ],
+  };
 }

@@ -43,10 +43,14 @@ export class Tabs {
     this.opened(name);
   }
 
+  /** The panel that is open. */
+  get shown(): string | undefined {
+    return [...this.panels].find(([, { panel }]) => !panel.hidden)?.[0];
+  }
+
   /** The next panel. */
   next(): void {
     const names = [...this.panels.keys()];
-    const at = names.findIndex((name) => !this.panels.get(name)!.panel.hidden);
-    this.open(names[(at + 1) % names.length]);
+    this.open(names[(names.indexOf(this.shown ?? "") + 1) % names.length]);
   }
 }

@@ -55,12 +55,15 @@ export class SpringLayer {
   }
 }
 
-/** Where an end is: p = p₀ + P X, or the point of space. */
-export function placed({ body, at }: SpringEnd, { position: p, gradient: P }: Frame): Vec3 {
+/** Where an end is: p = p₀ + P X, of an image R farther, or the point of space. */
+export function placed(
+  { body, at, shift = [0, 0, 0] }: SpringEnd,
+  { position: p, gradient: P }: Frame,
+): Vec3 {
   if (body === null) return at;
   return [0, 1, 2].map((axis) => {
     const row = 9 * body + 3 * axis;
-    return p[3 * body + axis] + P[row] * at[0] + P[row + 1] * at[1] + P[row + 2] * at[2];
+    return shift[axis] + p[3 * body + axis] + P[row] * at[0] + P[row + 1] * at[1] + P[row + 2] * at[2];
   }) as Vec3;
 }
 

@@ -14,6 +14,7 @@ mod window;
 
 pub use cells::SurfaceCells;
 pub use error::ReplayError;
+pub use rebuild::scene;
 pub use snapshot::{BodySnapshot, Snapshot};
 
 use gyration::body::{Body, BodyKind};

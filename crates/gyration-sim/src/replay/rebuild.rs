@@ -16,8 +16,11 @@ use std::path::Path;
 /// Relative difference of masses, centres and Euler tensors that rounding explains: sums over the triangles of a mesh.
 const ROUNDING: f64 = 1e-9;
 
-/// The scene of a recording.
-pub(super) fn scene(recording: &Recording) -> Result<Scene, ReplayError> {
+/// The scene of a recording, ready to run.
+///
+/// # Errors
+/// `NoScene`, `Scene` (a mesh or a table may have moved), `OtherBody` (or have changed).
+pub fn scene(recording: &Recording) -> Result<Scene, ReplayError> {
     let path = || recording.path().to_path_buf();
     let beside = recording.path().parent().unwrap_or(Path::new(""));
     let mut first_failure = None;

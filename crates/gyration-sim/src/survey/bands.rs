@@ -3,6 +3,7 @@
 use super::modes::{Named, RestPlace, left_out};
 use crate::modes::PARTS;
 use crate::modes::bands::{BandPath, BandRow, BandShape, LatticeWaves, NoBands, Sound, StrainPath, StrainedCell, Zone};
+use crate::waves::PassingWaves;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::{Scene, UnitCell};
 use serde::Serialize;
@@ -148,6 +149,17 @@ pub(super) fn waves_of(cell: &UnitCell, strain: Option<&StrainPath>) -> Result<L
         (None, Some(_)) => Ok(beginning(cell)?.at(&Mat3::identity())?.1),
         (Some(strain), _) => Ok(beginning(cell)?.at(&strain.at(0.0))?.1),
     }
+}
+
+/// The waves of the lattice of a scene as they pass over a block of its cells.
+///
+/// # Errors
+/// Why there are none, in words.
+pub fn passing_waves(scene: &Scene) -> Result<PassingWaves, String> {
+    let cell = unit_cell(scene)?;
+    let waves = waves_of(cell, None).map_err(|error| error.to_string())?;
+    let written = scene.file().lattice.as_ref().map_or([1; 3], |lattice| lattice.repeat.map(|it| it.0 as u32));
+    Ok(PassingWaves::new(cell.clone(), written, waves))
 }
 
 /// The cell that strains are of: as it is written, or as it rests under its stress.

@@ -27,7 +27,7 @@ mod strained;
 mod text;
 mod words;
 
-pub use bands::{BandOptions, BandSurvey, CellRestSurvey, unit_cell};
+pub use bands::{BandOptions, BandSurvey, CellRestSurvey, passing_waves, unit_cell};
 pub use bodies::{BodyModes, BodySurvey, PairSurvey, SceneModes, Survey, SystemModes, modes, modes_in_json};
 pub use complex_bands::{ComplexBandOptions, ComplexBandSurvey};
 pub use encounter::Encounter;

@@ -7,6 +7,7 @@
 //! one; κ and −κ are different waves, and zero modes none.
 
 mod exponential;
+mod passing;
 
 use crate::modes::Rest;
 use crate::modes::bands::{BandShape, Branch, LatticeWaves, NoBands, unit_phase};
@@ -21,6 +22,8 @@ use gyration::tensor::{Mat3, Vec3, axial};
 use gyration_scene::{NoWave, Packet, StartingWave, WaveStart};
 use gyration_threads::Interruption;
 use nalgebra::{Complex, ComplexField, Matrix3, Vector3};
+
+pub use passing::{Passing, PassingWaves};
 
 type C64 = Complex<f64>;
 

@@ -13,6 +13,7 @@ pub(crate) use shared::LiveState;
 pub(crate) use store::{Cursor, Message};
 pub use wish::Wish;
 
+use gyration_scene::Scene;
 use gyration_sim::Provenance;
 use runner::Subject;
 use std::io;
@@ -40,6 +41,11 @@ impl Live {
             std::thread::Builder::new().name(name.into()).spawn(move || work(&shared, &subject))?;
         }
         Ok(Self { shared })
+    }
+
+    /// The scene that runs, or has run last; none before it has been looked at.
+    pub(crate) fn scene(&self) -> Option<Arc<Scene>> {
+        self.shared.scene()
     }
 
     /// A page has come: the run may begin.

@@ -26,7 +26,9 @@ struct PageRequests {
     /// Overrides of a run to begin, if the scene takes them.
     asked: Option<Vec<String>>,
     /// A run to begin: of a scene that took its overrides.
-    wanted: Option<Box<Scene>>,
+    wanted: Option<Arc<Scene>>,
+    /// The last scene that did.
+    taken: Option<Arc<Scene>>,
     paused: bool,
     /// Whether a page has come yet.
     watched: bool,
@@ -67,11 +69,18 @@ impl LiveState {
 
     /// Lets the run of a scene begin in the place of the one under way.
     pub(super) fn supersede(&self, scene: Scene) {
+        let scene = Arc::new(scene);
         self.tell(|control| {
-            control.wanted = Some(Box::new(scene));
+            control.taken = Some(Arc::clone(&scene));
+            control.wanted = Some(scene);
             control.paused = false;
             self.superseded.store(true, Ordering::Relaxed);
         });
+    }
+
+    /// The last scene that took its overrides.
+    pub(super) fn scene(&self) -> Option<Arc<Scene>> {
+        self.control().taken.clone()
     }
 
     /// Gives up looking at overrides, once others are asked for.
@@ -120,7 +129,7 @@ impl LiveState {
     }
 
     /// Waits until a run is wanted; its scene.
-    pub(super) fn next_wanted(&self) -> Box<Scene> {
+    pub(super) fn next_wanted(&self) -> Arc<Scene> {
         self.wait_for(|control| {
             let wanted = control.wanted.take()?;
             self.superseded.store(false, Ordering::Relaxed);

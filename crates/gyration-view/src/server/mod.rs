@@ -5,6 +5,7 @@
 //! GET /TOKEN/api/header                header of a recording; of a live run only that it is one
 //! GET /TOKEN/api/blob/NAME?from=&to=   numbers of a recording
 //! GET /TOKEN/api/live                  websocket of a live run
+//! GET /TOKEN/api/bands, /api/wave      waves of a lattice
 //! ```
 //!
 //! It listens on 127.0.0.1 and answers only requests that call it by that name, have the token of its address and come
@@ -16,6 +17,7 @@ mod connections;
 mod guard;
 mod shown;
 mod socket;
+mod waves;
 
 use crate::error::ViewError;
 use crate::live::Live;
@@ -108,7 +110,8 @@ fn router(shown: Arc<Shown>, address: Address) -> Router {
         .route("/api/header", get(header_of))
         .route("/api/blob/{*name}", get(blob_of))
         .route("/api/live", get(socket::live))
-        .with_state(shown);
+        .with_state(Arc::clone(&shown))
+        .merge(waves::routes(shown));
     // What the page asks for stands relative to its address, which must therefore end with a slash.
     let moved = Redirect::temporary(&page);
     Router::new()

@@ -6,13 +6,30 @@ use crate::stored::Stored;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use gyration_record::RecordError;
-use std::sync::{Arc, RwLock};
+use gyration_scene::Scene;
+use std::sync::{Arc, PoisonError, RwLock};
 
 /// What requests share.
 pub(super) enum Shown {
     /// Opened again whenever its header is asked for: it may grow.
     Recording(RwLock<Arc<Stored>>),
     Live(Live),
+}
+
+impl Shown {
+    /// The scene of what is shown, ready to run; that of a recording is `known` once it was asked for.
+    pub(super) fn scene(&self, known: Option<&Arc<Scene>>) -> Result<Arc<Scene>, BadRequest> {
+        match (self, known) {
+            (Self::Live(live), _) => live.scene().ok_or_else(|| {
+                BadRequest(StatusCode::SERVICE_UNAVAILABLE, "the scene is being looked at: ask again".to_owned())
+            }),
+            (Self::Recording(_), Some(scene)) => Ok(Arc::clone(scene)),
+            (Self::Recording(stored), None) => {
+                let stored = Arc::clone(&stored.read().unwrap_or_else(PoisonError::into_inner));
+                Ok(Arc::new(stored.scene()?))
+            }
+        }
+    }
 }
 
 /// A request that cannot be met, in words.
