@@ -100,6 +100,7 @@ fn cube(material: Material, laws: Vec<ContactLaw>, height: f64, gravity: Vec3) -
         size: shape.size(),
         solid: Solid::new(shape, mass).into(),
         inclusion: None,
+        guide: None,
         own: Default::default(),
         pin: None,
     };

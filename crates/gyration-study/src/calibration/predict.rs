@@ -119,8 +119,8 @@ fn speed(tilted: &Scene, experiment: &Experiment, slope: f64) -> Result<f64, Str
 /// Where the velocity of a body's centre stands in the state.
 fn velocity(model: &Model, index: usize) -> Result<usize, String> {
     let body = &model.bodies[index];
-    if body.pin.is_some() || !body.has_inertia() {
-        return Err(format!("{:?} is pinned or has no inertia", model.name(index)));
+    if body.pin.is_some() || body.guide.is_some() || !body.has_inertia() {
+        return Err(format!("{:?} is pinned, has a `keep` or has no inertia", model.name(index)));
     }
     Ok(model.slots(index).velocity().start)
 }

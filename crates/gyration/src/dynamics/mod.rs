@@ -2,8 +2,8 @@
 //!
 //! `rates` is the file to read first. `loads` is the one loop over what acts on a body; `rigid`, `affine` and
 //! `contractile` solve the balance of each kind, `history` that of a sphere whose past motion the fluid feels,
-//! `body_rates` that of any body, `guided` what a guide makes of it; `jacobian` differentiates it; `inertialess` stands
-//! above both, and `rates` over all.
+//! `body_rates` that of any body, `guided` and `reaction` what a guide makes of it; `jacobian` differentiates it;
+//! `inertialess` stands above both, and `rates` over all.
 
 mod affine;
 mod body_rates;
@@ -22,17 +22,18 @@ mod loads;
 mod powers;
 mod pushes;
 mod rates;
+mod reaction;
 mod rigid;
 
 pub use by_kind::{LoadsByKind, loads_by_kind};
 pub use contact_parts::{ContactParts, contact_parts};
 pub use contacts::{gap_to_supports, nearest};
 pub use gaps::gap_at;
-pub use guided::reaction;
 pub use jacobian::{Blocks, Coupling, Lift, Lower};
 pub use loads::{Acting, acting, stored_energy};
 pub use pushes::{Push, each_push};
 pub use rates::{jacobian, rates};
+pub use reaction::reaction;
 
 pub(crate) use affine::{balance as affine_balance, moment};
 pub(crate) use body_rates::body_rates;

@@ -5,10 +5,10 @@
 //!   T = ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ),   ∂T/∂Ṗ = Ṗ J,   2 ∂T/∂g = Ṗ J Ṗᵀ
 //!
 //! M is that of all loads, about the centre of mass or the pin, and so is J; about the pin N has the moment of the
-//! weight too. The balance takes the reaction of a guide with it. The mean stress of a rigid body is the one that its balance asks for, S = (M − P̈ J)/V: its S Pᵀ is then
-//! symmetric as well. Of a body without inertia T and its derivative by the metric are zero, as P̈ is; its momenta are
-//! told all the same. `elasticity` has what the material does. Source: Sławianowski (1975), 2.7–3.9, 4.6–4.13;
-//! `docs/theory-affine.md`, `docs/equations.md`.
+//! weight too. The balance takes the reaction of a guide with it. The mean stress of a rigid body is the one that its
+//! balance asks for, S = (M − P̈ J)/V: its S Pᵀ is then symmetric as well. Of a body without inertia T and its
+//! derivative by the metric are zero, as P̈ is; its momenta are told all the same. `elasticity` has what the material
+//! does. Source: Sławianowski (1975), 2.7–3.9, 4.6–4.13; `docs/theory-affine.md`, `docs/equations.md`.
 
 mod elasticity;
 mod interior;

@@ -21,8 +21,8 @@ pub(super) use interactions::add_interactions;
 
 use super::Scratch;
 use super::contractile::ContractileMotion;
-use super::guided::hold_block;
 use super::history::RigidHistory;
+use super::reaction::hold_block;
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, KindAt};
 use crate::lattice::Cell;
