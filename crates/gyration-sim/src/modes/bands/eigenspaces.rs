@@ -5,9 +5,10 @@
 //! another part.
 
 use super::bloch::C64;
-use super::waves::{NoRoots, SAME};
 use nalgebra::{ComplexField, DMatrix, DVector, Schur};
 
+/// Eigenvalues nearer than this part of the largest are one.
+pub(super) const SAME: f64 = 1e-8;
 /// Sweeps of the Schur form at most, an eigenvalue; a few are the rule.
 const SWEEPS: usize = 30;
 
@@ -21,9 +22,9 @@ pub(super) struct Eigenspace {
     pub left: DMatrix<C64>,
 }
 
-/// All of them.
-pub(super) fn eigenspaces(matrix: &DMatrix<C64>) -> Result<Vec<Eigenspace>, NoRoots> {
-    let forms = parts(matrix).into_iter().map(|part| Form::of(matrix, part)).collect::<Result<Vec<_>, _>>()?;
+/// All of them; none if an iteration did not end.
+pub(super) fn eigenspaces(matrix: &DMatrix<C64>) -> Option<Vec<Eigenspace>> {
+    let forms = parts(matrix).into_iter().map(|part| Form::of(matrix, part)).collect::<Option<Vec<_>>>()?;
     let values = forms.iter().flat_map(|form| form.triangle.diagonal().iter().copied().collect::<Vec<_>>());
     let same = SAME * values.map(|value| value.modulus()).fold(0.0, f64::max);
     let mut found: Vec<Eigenspace> = Vec::new();
@@ -33,7 +34,7 @@ pub(super) fn eigenspaces(matrix: &DMatrix<C64>) -> Result<Vec<Eigenspace>, NoRo
             None => found.push(space),
         }
     }
-    Ok(found)
+    Some(found)
 }
 
 impl Eigenspace {
@@ -82,17 +83,17 @@ struct Form {
 }
 
 impl Form {
-    fn of(matrix: &DMatrix<C64>, part: Vec<usize>) -> Result<Self, NoRoots> {
+    fn of(matrix: &DMatrix<C64>, part: Vec<usize>) -> Option<Self> {
         let own = matrix.select_rows(&part).select_columns(&part);
         let size = own.nrows();
         let schur = |matrix: DMatrix<C64>| Schur::try_new(matrix, f64::EPSILON, SWEEPS * size).map(Schur::unpack);
         if let Some((unitary, triangle)) = schur(own.clone()) {
-            return Ok(Self { part, unitary, triangle });
+            return Some(Self { part, unitary, triangle });
         }
         // An iteration that goes in a circle does not do so in other axes.
         let mirror = mirror(size);
-        let (unitary, triangle) = schur(&mirror * own * &mirror).ok_or(NoRoots)?;
-        Ok(Self { part, unitary: mirror * unitary, triangle })
+        let (unitary, triangle) = schur(&mirror * own * &mirror)?;
+        Some(Self { part, unitary: mirror * unitary, triangle })
     }
 
     /// Its eigenvalues, those within a distance together, with vectors of the whole.

@@ -14,7 +14,7 @@
 
 use super::super::weightless::MotionMatrices;
 use super::bloch::{BlochSystem, C64};
-use super::eigenspaces::{Eigenspace, eigenspaces};
+use super::eigenspaces::{Eigenspace, SAME, eigenspaces};
 use gyration::tensor::Vec3;
 use nalgebra::{ComplexField, DMatrix, DVector, Schur};
 
@@ -22,8 +22,6 @@ use nalgebra::{ComplexField, DMatrix, DVector, Schur};
 pub(super) const NEUTRAL: f64 = 1e-12;
 /// Real or imaginary parts below this part of the largest root are rounding.
 const ROUNDING: f64 = 1e-10;
-/// Roots nearer than this part of the largest are one.
-pub(super) const SAME: f64 = 1e-8;
 /// Entries below this part of the largest are the rounding of a few hundred operations on it.
 const NOISE: f64 = 3e-14;
 /// Sweeps of an iteration at most.
@@ -244,7 +242,7 @@ impl FirstOrderWaves {
 
     /// All roots with their shapes.
     fn roots(&self) -> Result<Vec<RootGroup>, NoRoots> {
-        let found = eigenspaces(&self.matrix)?;
+        let found = eigenspaces(&self.matrix).ok_or(NoRoots)?;
         let largest = found.iter().flat_map(|it| &it.values).map(|value| value.modulus()).fold(0.0, f64::max);
         let snap = |value: f64| if value.abs() <= ROUNDING * largest { 0.0 } else { value };
         let group = |Eigenspace { values, right, left }: Eigenspace| RootGroup {
