@@ -21,16 +21,14 @@ fn pendulum(inertia: f64, moment: f64, amplitude: f64) -> f64 {
 
 #[test]
 fn a_box_on_a_hinge_is_a_physical_pendulum() {
-    let case =
-        Case {
-            row: None, name: "box pinned 0.3 m off, kept to a skew axis", source: "T = 4√(I/(mgl)) K(sin θ₀/2)"
-        };
+    const SOURCE: &str = "T = 4√(I/(mgl)) K(sin θ₀/2)";
+    let case = Case { row: None, name: "box pinned 0.3 m off, kept to a skew axis", source: SOURCE };
     // The axis is none of the principal ones: the reaction takes what the products of inertia would turn.
     let (size, amplitude, arm) = ([0.1_f64, 0.24, 0.4], 2.0, 0.3);
     let axis = Vec3::new(0.6, 0.8, 0.0);
     let scene = format!(
-        "time = {{ end = 1, sample = 0.01 }}\n{TIGHT}[[body]]\nname = \"box\"\nshape = {{ box = {{ size = {size:?} }} }}\n\
-         mass = 3\npin = [0, 0, {arm}]\nkeep = {{ axis = [3, 4, 0] }}\n\
+        "time = {{ end = 1, sample = 0.01 }}\n{TIGHT}[[body]]\nname = \"box\"\n\
+         shape = {{ box = {{ size = {size:?} }} }}\nmass = 3\npin = [0, 0, {arm}]\nkeep = {{ axis = [3, 4, 0] }}\n\
          orientation = {{ axis_angle = {{ axis = [3, 4, 0], angle = {amplitude} }} }}\n"
     );
     let [x, y, z] = size.map(|side| side * side / 12.0);

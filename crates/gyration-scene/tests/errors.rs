@@ -7,7 +7,7 @@ fn a_study_is_told_from_a_scene() {
     let text = format!("{TIME}{BALL}\n[§keep]\nz = {{ last = \"ball.z\" }}\n");
     assert_error(&text, "keep", "unknown key \"keep\"", "key of studies, which `gyration study` takes");
     // Elsewhere the word is one like any other.
-    assert_error(&format!("{TIME}{BALL}§keep = 1\n"), "body.ball.keep", "unknown key \"keep\"", "known keys");
+    assert_error(&format!("{TIME}{BALL}§repetitions = 1\n"), "body.ball.repetitions", "unknown key", "known keys");
 }
 
 #[test]

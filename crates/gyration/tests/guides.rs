@@ -120,6 +120,21 @@ fn blocks_of_guided_bodies_are_derivatives_and_powers_are_rates_of_energy() {
 }
 
 #[test]
+fn the_space_of_a_thin_oblique_plate_is_kept_to_rounding() {
+    let turn = orientation(0.6).rotation();
+    let euler_tensor = turn * Mat3::from_diagonal(&Vec3::new(1.0, 0.7, 1e-8)) * turn.transpose();
+    let start = orientation(1.7).rotation() * Mat3::new(1.3, 0.2, 0.0, -0.1, 0.8, 0.3, 0.4, 0.0, 1.1);
+    let normal = Vec3::new(0.48, -0.6, 0.64);
+    let plane = StrainGuide::plane(&normal, &start, &euler_tensor);
+    let stretch = StrainGuide::stretch(&start, &euler_tensor);
+    for (guide, dimension) in [(plane, 5.0), (stretch, 6.0)] {
+        assert!((guide.within(&start) - start).norm() < 1e-14);
+        assert!((guide.map() * guide.map() - guide.map()).norm() < 1e-11, "{}", guide.map());
+        assert!((guide.map().trace() - dimension).abs() < 1e-12);
+    }
+}
+
+#[test]
 fn accelerations_are_the_least_changed_that_the_guide_allows() {
     // Gauss: of all accelerations that are allowed, the one nearest to the free one in the metric of the mass.
     let (model, state) = ring(99, true);

@@ -46,6 +46,8 @@ impl StrainGuide {
         let mass = (euler_tensor / euler_tensor.trace()).kronecker(&Mat3::identity());
         let weighed = basis.transpose() * mass;
         let solved = (&weighed * &basis).lu().solve(&weighed).unwrap_or(weighed);
+        // A step of Newton, after which Π B = B to rounding, also of a thin plate.
+        let solved = &solved * 2.0 - &solved * &basis * &solved;
         Self { map: Mat9::from_iterator((basis * solved).iter().copied()) }
     }
 
