@@ -1,16 +1,19 @@
-//! The eigenvalues of a complex matrix that has no symmetry, with right and left vectors.
+//! The eigenvalues of a complex matrix that has no symmetry, with right and left vectors, and of a Hermitian one.
 //!
 //! Indices that no entry joins fall into parts, each with a Schur form of its own: a part is small where most
 //! coordinates do not act on each other, and many equal eigenvalues, on which the iteration may stall, are each in
 //! another part.
 
 use super::bloch::C64;
-use nalgebra::{ComplexField, DMatrix, DVector, Schur};
+use nalgebra::{ComplexField, DMatrix, DVector, Dyn, Schur, SymmetricEigen};
 
 /// Eigenvalues nearer than this part of the largest are one.
 pub(super) const SAME: f64 = 1e-8;
-/// Sweeps of the Schur form at most, an eigenvalue; a few are the rule.
+/// Sweeps of an iteration at most, an eigenvalue; a few are the rule.
 const SWEEPS: usize = 30;
+/// In so many roundings an entry is none where an iteration does not end otherwise, which the rounding of its own steps
+/// may keep it from.
+const MILDER: [f64; 6] = [1.0, 4.0, 16.0, 64.0, 256.0, 1024.0];
 
 /// Eigenvalues that are one, and what spans their right and left vectors.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,10 +72,37 @@ fn parts(matrix: &DMatrix<C64>) -> Vec<Vec<usize>> {
     parts
 }
 
-/// 1 − 2 v ⊗ v of a unit vector without zeros and without symmetry.
-fn mirror(size: usize) -> DMatrix<C64> {
-    let normal = DVector::from_fn(size, |i, _| C64::new(libm::sin(1.0 + 1.7 * i as f64), 0.1)).normalize();
+/// 1 − 2 v ⊗ v of a unit vector without zeros and without symmetry, another for each number.
+fn mirror(size: usize, number: f64) -> DMatrix<C64> {
+    let normal = DVector::from_fn(size, |i, _| C64::new(libm::sin(number + 1.7 * i as f64), 0.1)).normalize();
     DMatrix::identity(size, size) - &normal * normal.adjoint() * C64::new(2.0, 0.0)
+}
+
+/// A multiple of one that is larger than a matrix.
+///
+/// Entries are judged beside those of the diagonal, so that an iteration may not end where several eigenvalues are
+/// zero; of a matrix with this added they are not.
+fn shift(matrix: &DMatrix<C64>) -> DMatrix<C64> {
+    DMatrix::from_diagonal_element(matrix.nrows(), matrix.ncols(), C64::new(2.0 * matrix.norm(), 0.0))
+}
+
+/// The eigenvalues of a Hermitian matrix, and their vectors; none if an iteration did not end.
+pub(super) fn hermitian_eigen(matrix: DMatrix<C64>) -> Option<SymmetricEigen<C64, Dyn>> {
+    let size = matrix.nrows();
+    if size == 0 {
+        return Some(SymmetricEigen { eigenvectors: DMatrix::zeros(0, 0), eigenvalues: DVector::zeros(0) });
+    }
+    if let Some(found) = matrix.clone().try_symmetric_eigen(f64::EPSILON, SWEEPS * size) {
+        return Some(found);
+    }
+    let shift = shift(&matrix);
+    let (mirror, found) = MILDER.iter().find_map(|digits| {
+        let mirror = mirror(size, *digits);
+        let turned = &mirror * (&matrix + &shift) * &mirror;
+        Some((mirror, turned.try_symmetric_eigen(*digits * f64::EPSILON, SWEEPS * size)?))
+    })?;
+    let eigenvalues = found.eigenvalues.map(|value| value - shift[(0, 0)].re);
+    Some(SymmetricEigen { eigenvectors: mirror * found.eigenvectors, eigenvalues })
 }
 
 /// The Schur form of a part.
@@ -86,14 +116,17 @@ impl Form {
     fn of(matrix: &DMatrix<C64>, part: Vec<usize>) -> Option<Self> {
         let own = matrix.select_rows(&part).select_columns(&part);
         let size = own.nrows();
-        let schur = |matrix: DMatrix<C64>| Schur::try_new(matrix, f64::EPSILON, SWEEPS * size).map(Schur::unpack);
-        if let Some((unitary, triangle)) = schur(own.clone()) {
+        if let Some((unitary, triangle)) = Schur::try_new(own.clone(), f64::EPSILON, SWEEPS * size).map(Schur::unpack) {
             return Some(Self { part, unitary, triangle });
         }
-        // An iteration that goes in a circle does not do so in other axes.
-        let mirror = mirror(size);
-        let (unitary, triangle) = schur(&mirror * own * &mirror)?;
-        Some(Self { part, unitary: mirror * unitary, triangle })
+        let shift = shift(&own);
+        let (mirror, schur) = MILDER.iter().find_map(|digits| {
+            let mirror = mirror(size, *digits);
+            let turned = &mirror * (&own + &shift) * &mirror;
+            Some((mirror, Schur::try_new(turned, *digits * f64::EPSILON, SWEEPS * size)?))
+        })?;
+        let (unitary, triangle) = schur.unpack();
+        Some(Self { part, unitary: mirror * unitary, triangle: triangle - shift })
     }
 
     /// Its eigenvalues, those within a distance together, with vectors of the whole.

@@ -6,7 +6,8 @@
 //! are more than translations, those with the greatest share of translation are meant.
 
 use super::bloch::{BlochSystem, C64};
-use super::waves::{NEUTRAL, NoRoots, SWEEPS, hermitian};
+use super::eigenspaces::hermitian_eigen;
+use super::waves::{NEUTRAL, NoRoots, hermitian};
 use super::{LatticeWaves, NoBands};
 use gyration::tensor::Vec3;
 use nalgebra::{DMatrix, DVector};
@@ -25,7 +26,7 @@ impl BlochSystem {
     /// ω²/k² of long waves along a unit vector [m²/s²], ascending; given the translations of everything.
     pub fn long_waves(&self, along: &Vec3, translations: &DMatrix<f64>) -> Result<Vec<f64>, NoRoots> {
         let origin = [0.0; 3];
-        let eigen = hermitian(self.wave(&origin).stiffness).try_symmetric_eigen(f64::EPSILON, SWEEPS).ok_or(NoRoots)?;
+        let eigen = hermitian_eigen(hermitian(self.wave(&origin).stiffness)).ok_or(NoRoots)?;
         let least = NEUTRAL * self.stiffest;
         let (free, held): (Vec<usize>, Vec<usize>) =
             (0..eigen.eigenvalues.len()).partition(|k| eigen.eigenvalues[*k].abs() <= least);
@@ -45,7 +46,7 @@ impl BlochSystem {
         }
         let second = space.adjoint() * self.curvature(along).stiffness * C64::new(0.5, 0.0) * &space;
         let within = hermitian(second - pushed.adjoint() * eased);
-        let waves = within.try_symmetric_eigen(f64::EPSILON, SWEEPS).ok_or(NoRoots)?;
+        let waves = hermitian_eigen(within).ok_or(NoRoots)?;
         let shapes = space * &waves.eigenvectors;
         let moved = translations.map(|entry| C64::new(entry, 0.0)).adjoint() * shapes;
         let mut order: Vec<usize> = (0..waves.eigenvalues.len()).collect();

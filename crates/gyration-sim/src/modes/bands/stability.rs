@@ -4,7 +4,8 @@
 //! neighbours in shrinking steps goes down from there. At κ = 0 translations of everything are left out; what long
 //! waves do instead is told by ω²/k² (`sound`), of which the least over all directions is sought in the same way.
 
-use super::waves::{SWEEPS, hermitian};
+use super::eigenspaces::hermitian_eigen;
+use super::waves::hermitian;
 use super::{LatticeWaves, NoBands};
 use gyration::tensor::Vec3;
 use gyration_threads::Interruption;
@@ -120,7 +121,7 @@ impl LatticeWaves {
             return Err(NoBands::Interrupted);
         }
         let stiffness = hermitian(self.system.wave(kappa).stiffness);
-        let eigen = stiffness.try_symmetric_eigen(f64::EPSILON, SWEEPS).ok_or(NoBands::Roots(*kappa))?;
+        let eigen = hermitian_eigen(stiffness).ok_or(NoBands::Roots(*kappa))?;
         let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
         order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
         let square = |branch: usize| eigen.eigenvalues[order[branch]];

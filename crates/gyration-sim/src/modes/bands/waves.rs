@@ -14,7 +14,7 @@
 
 use super::super::weightless::MotionMatrices;
 use super::bloch::{BlochSystem, C64};
-use super::eigenspaces::{Eigenspace, SAME, eigenspaces};
+use super::eigenspaces::{Eigenspace, SAME, eigenspaces, hermitian_eigen};
 use gyration::tensor::Vec3;
 use nalgebra::{ComplexField, DMatrix, DVector, Schur};
 
@@ -25,7 +25,7 @@ const ROUNDING: f64 = 1e-10;
 /// Entries below this part of the largest are the rounding of a few hundred operations on it.
 const NOISE: f64 = 3e-14;
 /// Sweeps of an iteration at most.
-pub(super) const SWEEPS: usize = 10_000;
+const SWEEPS: usize = 10_000;
 
 /// A root and its shape.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,7 +62,7 @@ impl BlochSystem {
 
     fn conservative(&self, kappa: &[f64; 3], along: &Vec3) -> Result<Waves, NoRoots> {
         let matrix = hermitian(self.wave(kappa).stiffness);
-        let eigen = matrix.try_symmetric_eigen(f64::EPSILON, SWEEPS).ok_or(NoRoots)?;
+        let eigen = hermitian_eigen(matrix).ok_or(NoRoots)?;
         let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
         order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
         let least = NEUTRAL * self.stiffest;
@@ -80,7 +80,7 @@ impl BlochSystem {
                 let directed =
                     |i: usize, j: usize| along.iter().zip(&slope(i, j)).map(|(part, slope)| slope * *part).sum();
                 let within = hermitian(DMatrix::from_fn(count, count, directed));
-                let turned = within.try_symmetric_eigen(f64::EPSILON, SWEEPS).ok_or(NoRoots)?.eigenvectors;
+                let turned = hermitian_eigen(within).ok_or(NoRoots)?.eigenvectors;
                 vectors.columns_mut(from, count).copy_from(&(space * turned));
             }
             from += count;
@@ -189,13 +189,7 @@ struct RootGroup {
 
 impl FirstOrderWaves {
     fn new(matrices: MotionMatrices, least: f64, places: Vec<usize>) -> Result<Self, NoRoots> {
-        let basis = match matrices.stiffness.is_empty() {
-            true => DMatrix::zeros(0, 0),
-            false => {
-                let eigen = hermitian(matrices.stiffness.clone()).try_symmetric_eigen(f64::EPSILON, SWEEPS);
-                eigen.ok_or(NoRoots)?.eigenvectors
-            }
-        };
+        let basis = hermitian_eigen(hermitian(matrices.stiffness.clone())).ok_or(NoRoots)?.eigenvectors;
         let (size, own) = (basis.ncols(), matrices.own.nrows());
         let within = without_noise(basis.adjoint() * &matrices.stiffness * &basis);
         let resistance = without_noise(basis.adjoint() * &matrices.resistance * &basis);
