@@ -1,6 +1,7 @@
 //! Lattices and systems in a viscous fluid whose bodies, or some of them, have no inertia: states of first order.
 
 use gyration_scene::Scene;
+use gyration_sim::complete;
 use gyration_sim::modes::bands::LatticeWaves;
 use gyration_sim::modes::{system_modes, system_rest};
 use gyration_validation::Case;
@@ -109,6 +110,30 @@ fn waves_run_over_bodies_of_which_every_second_has_inertia() {
     });
     assert_eq!(found.len(), 2, "{found:?}");
     case.check("error of complex κ at ω = 4", 0.0, errors.fold(0.0, f64::max), 1e-10);
+}
+
+#[test]
+fn waves_of_shapes_whose_resistance_is_computed_are_damped_by_it() {
+    // Symptom: the cell of which bands are had no resistance, and what is not finite kept the search for roots going.
+    let body = |inertia: bool| {
+        format!(
+            "[[body]]\nname = \"a\"\nshape = {{ box = {{ size = [0.03, 0.03, 0.03] }} }}\ndensity = 800\n\
+             inclusion = {{ inertia = {inertia}, triangles = 108 }}\n"
+        )
+    };
+    let at = |inertia: bool, repeat: usize| {
+        let lattice = format!("lattice = {{ cell = [[0.1, 0, 0]], repeat = [{repeat}, 1, 1] }}\n");
+        let scene = complete(scene(&format!("{lattice}{}{}", body(inertia), spring(["a", "a"], 1, 0.0)))).unwrap();
+        let cell = scene.built().cell.as_ref().unwrap();
+        let waves = LatticeWaves::new(&cell.model, &cell.state, cell.relaxes).unwrap();
+        waves.branches([0.5, 0.0, 0.0]).unwrap().iter().map(|branch| branch.decay).fold(0.0, f64::max)
+    };
+    let case = Case { row: None, name: "chain of cubes without inertia in a fluid", source: "4k over its decay" };
+    let drag = 4.0 * STIFFNESS / at(false, 1);
+    // A cube drags as the sphere of 1.06 to 1.09 times the radius of one of its volume, to 108 triangles.
+    let sphere = 6.0 * PI * VISCOSITY * 0.03 * (0.75 / PI).cbrt();
+    case.by("drag of the sphere of its volume").check("drag over that", 1.07, drag / sphere, 0.05);
+    case.check("drag in a lattice of three cells [N s/m]", drag, 4.0 * STIFFNESS / at(false, 3), 1e-14);
 }
 
 #[test]

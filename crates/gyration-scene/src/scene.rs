@@ -15,7 +15,6 @@ use gyration::state::State;
 use gyration::tensor::Vec3;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// A scene without errors, with its text, its resolved form and its model.
 #[derive(Debug, Clone)]
@@ -111,16 +110,14 @@ impl Scene {
     ) -> Result<Self, SceneErrors> {
         let Some(Unknown { forms, document }) = self.unknown.take().map(|unknown| *unknown) else { return Ok(self) };
         let mut diagnostics = Diagnostics::of(ErrorKind::Value);
+        let written = self.file.body.len();
         for asked in forms {
-            let body = &mut self.built.model.bodies[asked.body];
-            match form(body, &asked) {
-                Ok(found) => {
-                    if let Some(inclusion) = &mut Arc::make_mut(body).inclusion {
-                        inclusion.form = found;
-                    }
-                }
+            // The copies of each body follow one another.
+            let number = asked.body * written / self.built.model.bodies.len();
+            match form(&self.built.model.bodies[asked.body], &asked) {
+                Ok(found) => self.built.give_form((asked.body, number), written, &found),
                 Err(error) => {
-                    let key = Key::root().key("body").index(asked.body).key("shape");
+                    let key = Key::root().key("body").index(number).key("shape");
                     match error {
                         NoForm::Surface(problem) => diagnostics.at(key.span(&document.root), &key, problem, FIX),
                         NoForm::Interrupted => {

@@ -23,6 +23,9 @@ fn errors_of_a_lattice_stand_at_their_place() {
             "not symmetric",
             "across the diagonal",
         ),
+        (format!("{CHAIN}repeat = [§4.5, 1, 1]"), "lattice.repeat.0", "must be whole", "whole number from 1"),
+        (format!("{CHAIN}repeat = [§0, 1, 1]"), "lattice.repeat.0", "at least 1", "whole number from 1"),
+        (spring("cell = [§1.5, 0, 0]"), "spring.0.cell.0", "must be whole", "write a whole number"),
         (
             format!("{CHAIN}repeat = [8, 1, 1]\nabsorb = §{{ cells = 2, rate = 5 }}"),
             "lattice.absorb",

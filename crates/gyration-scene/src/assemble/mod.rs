@@ -44,8 +44,9 @@ use crate::key::Key;
 use crate::quantity::si;
 use crate::unknown::UnknownForm;
 use body::AssembledBody;
+use gyration::body::Body;
 use gyration::contact::Contact;
-use gyration::fluid::Fluid;
+use gyration::fluid::{Fluid, Form};
 use gyration::kinematics::Placement;
 use gyration::lattice::Lattice;
 use gyration::load::{Bond, Interaction, Party, Spring};
@@ -79,6 +80,26 @@ pub struct Built {
     pub cell: Option<UnitCell>,
     /// The waves with which it starts, until the scene is completed.
     pub waves: Option<WaveStart>,
+}
+
+impl Built {
+    /// Gives a body of the model, and all copies in the cells of which bands and waves are, the form that was not
+    /// known; the scene has so many bodies, of which it is a copy of the one of this number.
+    pub(crate) fn give_form(&mut self, (body, number): (usize, usize), written: usize, form: &Form) {
+        give_form(&mut self.model.bodies[body], form);
+        let cells = self.cell.iter_mut().chain(self.waves.as_mut().map(|waves| &mut waves.cell));
+        for cell in cells {
+            let copies = cell.model.bodies.len() / written;
+            let own = &mut cell.model.bodies[number * copies..(number + 1) * copies];
+            own.iter_mut().for_each(|body| give_form(body, form));
+        }
+    }
+}
+
+fn give_form(body: &mut Arc<Body>, form: &Form) {
+    if let Some(inclusion) = &mut Arc::make_mut(body).inclusion {
+        inclusion.form = form.clone();
+    }
 }
 
 /// The cell of a lattice of which bands are: one cell along what is periodic, all beside it.

@@ -19,7 +19,7 @@ pub(crate) static RULES: LazyLock<Rules> = LazyLock::new(|| Rules::new(&SCHEMA))
 #[derive(Debug)]
 pub(crate) struct Rules {
     pub(super) root: FieldRule,
-    shared: BTreeMap<String, Rule>,
+    shared: BTreeMap<String, FieldRule>,
 }
 
 /// What may stand at a place.
@@ -80,15 +80,28 @@ impl Rules {
     /// The rules of a schema.
     pub(crate) fn new(schema: &Json) -> Self {
         let definitions = schema.get("$defs").and_then(Json::as_object);
-        let shared = definitions.into_iter().flatten().map(|(name, target)| (name.clone(), rule(target)));
+        let shared = definitions.into_iter().flatten().map(|(name, target)| (name.clone(), field(target)));
         Self { root: field(schema), shared: shared.collect() }
     }
 
     /// The rule itself, behind its name if it is a shared one.
     pub(super) fn resolve<'a>(&'a self, rule: &'a Rule) -> &'a Rule {
         match rule {
-            Rule::Shared(name) => self.shared.get(name).unwrap_or(&Rule::Unknown),
+            Rule::Shared(name) => self.shared.get(name).map_or(&Rule::Unknown, |shared| &shared.rule),
             other => other,
+        }
+    }
+
+    /// The limits of a number, with those of the shared rule that it follows.
+    pub(super) fn limits(&self, field: &FieldRule) -> NumberLimits {
+        let own = field.limits;
+        let Rule::Shared(name) = &field.rule else { return own };
+        let Some(shared) = self.shared.get(name).map(|shared| shared.limits) else { return own };
+        NumberLimits {
+            least: own.least.or(shared.least),
+            most: own.most.or(shared.most),
+            above: own.above.or(shared.above),
+            whole: own.whole || shared.whole,
         }
     }
 
@@ -245,9 +258,8 @@ mod tests {
     #[test]
     fn every_part_of_the_schema_is_understood() {
         assert_understood(&RULES.root, "scene");
-        for (name, rule) in &RULES.shared {
-            let shared = FieldRule { rule: rule.clone(), ..field(&Json::Null) };
-            assert_understood(&shared, name);
+        for (name, shared) in &RULES.shared {
+            assert_understood(shared, name);
         }
     }
 }

@@ -28,6 +28,7 @@ impl Walker<'_> {
         if self.diagnostics.is_full() {
             return;
         }
+        let limits = self.rules.limits(field);
         match (&node.value, self.rules.resolve(&field.rule)) {
             (Value::Table(table), Rule::Table { fields, required }) => self.table(table, node, key, fields, required),
             (Value::Table(table), Rule::Choice { words, tags }) if !tags.is_empty() => {
@@ -52,28 +53,30 @@ impl Walker<'_> {
             (Value::Array(items), Rule::Array { item, least, most }) => {
                 let count = items.len();
                 if !(*least..=*most).contains(&count) {
-                    let expected = if most == least { format!("{least}") } else { format!("at least {least}") };
+                    let expected = match count > *most {
+                        _ if most == least => format!("{least}"),
+                        true => format!("at most {most}"),
+                        false => format!("at least {least}"),
+                    };
                     let message = format!("expected {expected} items, found {count}");
                     self.diagnostics.at(node.span, key, message, format!("write {}", self.expected(&field.rule)));
                 }
                 self.items(items, key, item);
             }
-            (Value::Number(number), Rule::Number | Rule::Expression) => {
-                self.limits(*number, node, key, field.limits, "")
-            }
+            (Value::Number(number), Rule::Number | Rule::Expression) => self.limits(*number, node, key, limits, ""),
             (Value::Number(number), Rule::Quantity { symbol, .. }) => {
-                self.limits(*number, node, key, field.limits, symbol);
+                self.limits(*number, node, key, limits, symbol);
             }
             (Value::Text(text), Rule::Quantity { words, .. }) if words.contains(text) => {}
             (Value::Text(text), Rule::Quantity { symbol, unit, example, words }) => {
                 match in_unit(text, unit, symbol, example) {
-                    Ok(number) => self.limits(number, node, key, field.limits, symbol),
+                    Ok(number) => self.limits(number, node, key, limits, symbol),
                     Err((message, help)) => self.diagnostics.at(node.span, key, message, help + &or(words)),
                 }
             }
-            (Value::Number(number), Rule::AnyQuantity) => self.limits(*number, node, key, field.limits, ""),
+            (Value::Number(number), Rule::AnyQuantity) => self.limits(*number, node, key, limits, ""),
             (Value::Text(text), Rule::AnyQuantity) => match parse_quantity(text) {
-                Ok((number, unit)) => self.limits(number * unit.size, node, key, field.limits, ""),
+                Ok((number, unit)) => self.limits(number * unit.size, node, key, limits, ""),
                 Err(error) => {
                     let help = match &error {
                         UnitError::UnknownUnit { nearest: Some(nearest), .. } => format!("did you mean \"{nearest}\"?"),

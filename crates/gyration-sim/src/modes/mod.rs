@@ -113,6 +113,12 @@ pub enum NoRest {
     /// The body has no inertia.
     #[error("the body has no inertia: it has no modes, but the velocities that the fluid lets it have")]
     WithoutInertia,
+    /// The fluid remembers how it moved.
+    #[error(
+        "the fluid remembers how a body moved (`history`), which its small motions would have to go on with: write \
+         history = false to leave that out"
+    )]
+    Remembered,
     /// Other bodies act on it.
     #[error("others act on the body: `gyration modes` looks for the rest that they have together")]
     ActedOn,
@@ -212,6 +218,9 @@ pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
 /// # Errors
 /// [`NoRest`].
 pub fn system_rest(model: &Model, start: &State, members: &[usize]) -> Result<Vec<Rest>, NoRest> {
+    if members.iter().any(|body| model.bodies[*body].history().is_some()) {
+        return Err(NoRest::Remembered);
+    }
     let mut frozen = FrozenSystem::new(model, start, members, FrozenContraction::Held);
     let held = match equilibrium::find(&mut frozen) {
         Err(_) if Interruption::due().is_some() => return Err(NoRest::Interrupted),

@@ -25,8 +25,11 @@ pub(super) struct Eigenspace {
     pub left: DMatrix<C64>,
 }
 
-/// All of them; none if an iteration did not end.
+/// All of them; none of what is not finite, or if an iteration did not end.
 pub(super) fn eigenspaces(matrix: &DMatrix<C64>) -> Option<Vec<Eigenspace>> {
+    if !is_finite(matrix) {
+        return None;
+    }
     let forms = parts(matrix).into_iter().map(|part| Form::of(matrix, part)).collect::<Option<Vec<_>>>()?;
     let values = forms.iter().flat_map(|form| form.triangle.diagonal().iter().copied().collect::<Vec<_>>());
     let same = SAME * values.map(|value| value.modulus()).fold(0.0, f64::max);
@@ -86,11 +89,19 @@ fn shift(matrix: &DMatrix<C64>) -> DMatrix<C64> {
     DMatrix::from_diagonal_element(matrix.nrows(), matrix.ncols(), C64::new(2.0 * matrix.norm(), 0.0))
 }
 
-/// The eigenvalues of a Hermitian matrix, and their vectors; none if an iteration did not end.
+fn is_finite(matrix: &DMatrix<C64>) -> bool {
+    matrix.iter().all(|entry| entry.re.is_finite() && entry.im.is_finite())
+}
+
+/// The eigenvalues of a Hermitian matrix, and their vectors; none of what is not finite, or if an iteration did not
+/// end.
 pub(super) fn hermitian_eigen(matrix: DMatrix<C64>) -> Option<SymmetricEigen<C64, Dyn>> {
     let size = matrix.nrows();
     if size == 0 {
         return Some(SymmetricEigen { eigenvectors: DMatrix::zeros(0, 0), eigenvalues: DVector::zeros(0) });
+    }
+    if !is_finite(&matrix) {
+        return None;
     }
     if let Some(found) = matrix.clone().try_symmetric_eigen(f64::EPSILON, SWEEPS * size) {
         return Some(found);

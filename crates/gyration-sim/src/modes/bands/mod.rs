@@ -139,6 +139,9 @@ impl LatticeWaves {
     /// [`NoBands`].
     pub fn new(model: &Model, start: &State, relaxes: bool) -> Result<Self, NoBands> {
         let members: Vec<usize> = (0..model.bodies.len()).collect();
+        if members.iter().any(|body| model.bodies[*body].history().is_some()) {
+            return Err(NoRest::Remembered.into());
+        }
         let sought = if relaxes { Some(system_rest(model, start, &members)?) } else { None };
         let goes_on = |rest: &Rest| matches!(rest.contraction, Some(RestContraction::GoesOn(_)));
         let follows = match &sought {
