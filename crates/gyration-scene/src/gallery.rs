@@ -57,7 +57,6 @@ static SCENES: &[(&str, &str)] = &[
     ("wave-gap", include_str!("../../../scenes/wave-gap.toml")),
     ("active-chain", include_str!("../../../scenes/active-chain.toml")),
     ("gyroscopes", include_str!("../../../scenes/gyroscopes.toml")),
-    ("molecule-crystal", include_str!("../../../scenes/molecule-crystal.toml")),
 ];
 
 /// Name and text of each scene of the gallery.

@@ -24,8 +24,8 @@ describe("the report of every gallery scene", () => {
     const took = performance.now() - began;
     const last = await lastTime(page);
     const seen = await pixelsAt(page, 0, 2, 2);
-    // Background and shades of a body: a scene without planes has no more, where no graphics card smooths edges.
-    expect(colors(seen), "colours of the picture").toBeGreaterThan(4);
+    // Background and shades of a body: a scene without planes has no more, and points have fewer.
+    expect(colors(seen), "colours of the picture").toBeGreaterThan(2);
 
     // Without planes and with a camera that stands, whatever changes is a body.
     await page.keyboard.press("g");
