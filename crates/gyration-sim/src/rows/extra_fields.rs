@@ -88,7 +88,8 @@ macro_rules! extra {
 
 /// A field of the observation of homogeneous strain.
 macro_rules! strain {
-    ($word:ident, $name:literal, $units:literal, $description:literal, $rank:ident, $suffixes:expr, $($found:ident).+) => {
+    ($word:ident, $name:literal, $units:literal, $description:literal, $rank:ident,
+     $suffixes:expr, $($found:ident).+) => {
         extra!($word, Strain, $name, $units, $description, $rank, $suffixes,
             context => context.homogeneous.map_or(nothing!($rank), |strain| strain.$($found).+))
     };
@@ -108,8 +109,8 @@ macro_rules! by_kind {
         [
             extra!(ForceByKind, Loads, $force, "N", concat!("force of ", $whose), Vector, vector!($force),
                 context => context.loads.map_or(NO_VECTOR, |loads| loads.of(LoadKind::$kind).force)),
-            extra!(MomentByKind, Loads, $moment, "N m", concat!("affine moment M of ", $whose), Matrix, matrix!($moment),
-                context => context.loads.map_or(NO_MATRIX, |loads| loads.of(LoadKind::$kind).moment)),
+            extra!(MomentByKind, Loads, $moment, "N m", concat!("affine moment M of ", $whose), Matrix,
+                matrix!($moment), context => context.loads.map_or(NO_MATRIX, |loads| loads.of(LoadKind::$kind).moment)),
         ]
     };
 }
@@ -117,13 +118,18 @@ macro_rules! by_kind {
 /// All but those told kind by kind, in the order in which they are recorded.
 #[rustfmt::skip]
 static FIELDS: [ExtraField; 27] = [
-    strain!(VelocityGradient, "velocity_gradient", "1/s", "velocity gradient L = Pdot P^-1", Matrix, &[], velocity_gradient),
-    strain!(AffineMomentumTotal, "affine_momentum_total", "kg m2/s", "affine momentum about the origin asked for", Matrix, &[], total_affine_momentum),
+    strain!(VelocityGradient, "velocity_gradient", "1/s",
+        "velocity gradient L = Pdot P^-1", Matrix, &[], velocity_gradient),
+    strain!(AffineMomentumTotal, "affine_momentum_total", "kg m2/s",
+        "affine momentum about the origin asked for", Matrix, &[], total_affine_momentum),
     strain!(AffineMoment, "affine_moment", "N m", "affine moment of forces N = P M^T", Matrix, &[], affine_moment),
     strain!(MomentPower, "moment_power", "W", "power tr(N L) of the affine moment", Scalar, &[], moment_power),
-    strain!(ComovingMomentum, "comoving_momentum", "kg m2/s", "co-moving affine momentum P^-1 K P^-T", Matrix, &[], comoving_affine_momentum),
-    strain!(MomentumResidual, "momentum_residual", "N m", "residual of the balance of affine momentum", Matrix, &[], momentum_residual),
-    strain!(PrincipalStretches, "principal_stretches", "1", "principal stretches, descending", Vector, &[], principal_stretches),
+    strain!(ComovingMomentum, "comoving_momentum", "kg m2/s",
+        "co-moving affine momentum P^-1 K P^-T", Matrix, &[], comoving_affine_momentum),
+    strain!(MomentumResidual, "momentum_residual", "N m",
+        "residual of the balance of affine momentum", Matrix, &[], momentum_residual),
+    strain!(PrincipalStretches, "principal_stretches", "1",
+        "principal stretches, descending", Vector, &[], principal_stretches),
     strain!(Rotation, "rotation", "1", "rotation R of P = R U", Matrix, &[], rotation),
     strain!(CauchyStress, "cauchy_stress", "Pa", "Cauchy stress S P^T/det P", Matrix, &[], cauchy_stress),
     strain!(Stress, "stress", "Pa", "first Piola stress S; the mean stress of a rigid body", Matrix, &[], stress),
@@ -136,17 +142,30 @@ static FIELDS: [ExtraField; 27] = [
         context => context.reaction.map_or(NO_VECTOR, |reaction| reaction.force)),
     extra!(ConstraintMoment, Guide, "constraint_moment", "N m", "affine moment N = P M^T of `keep`", Matrix, &[],
         context => context.reaction.map_or(NO_MATRIX, |reaction| reaction.moment)),
-    strain!(ForceTotal, "force_total", "N", "force of all loads, without weight and pin", Vector, vector!("force_total"), total_force),
-    strain!(MomentTotal, "moment_total", "N m", "affine moment M of all loads, without weight and pin", Matrix, matrix!("moment_total"), total_moment),
-    strain!(AffineMomentTotal, "affine_moment_total", "N m", "affine moment of all loads about the origin asked for", Matrix, matrix!("affine_moment_total"), total_affine_moment),
-    strain!(FrictionMoment, "friction_moment", "N m", "affine moment D of internal and linear friction", Matrix, matrix!("friction_moment"), friction_moment),
+    strain!(ForceTotal, "force_total", "N",
+        "force of all loads, without weight and pin", Vector, vector!("force_total"), total_force),
+    strain!(MomentTotal, "moment_total", "N m",
+        "affine moment M of all loads, without weight and pin", Matrix, matrix!("moment_total"), total_moment),
+    strain!(AffineMomentTotal, "affine_moment_total", "N m",
+        "affine moment of all loads about the origin asked for", Matrix,
+        matrix!("affine_moment_total"), total_affine_moment),
+    strain!(FrictionMoment, "friction_moment", "N m",
+        "affine moment D of internal and linear friction", Matrix, matrix!("friction_moment"), friction_moment),
     strain!(KineticTensor, "kinetic_tensor", "J", "Pdot J Pdot^T", Matrix, matrix!("kinetic_tensor"), kinetic_tensor),
-    strain!(CanonicalMomentum, "canonical_momentum", "kg m2/s", "canonical momentum Pdot J", Matrix, matrix!("canonical_momentum"), canonical_momentum),
-    strain!(KineticEnergy, "kinetic_energy_centre", "J", "kinetic energy of the centre of mass", Scalar, &["kinetic_energy_centre"], kinetic_energy_of_centre),
-    strain!(KineticEnergy, "kinetic_energy_internal", "J", "kinetic energy about the centre of mass", Scalar, &["kinetic_energy_internal"], internal_kinetic_energy),
-    strain!(ElasticGradient, "elastic_gradient", "1", "elastic gradient F = P G^-1", Matrix, matrix!("elastic_gradient"), elasticity.elastic_gradient),
-    strain!(ElasticStress, "elastic_stress", "Pa", "elastic part of the first Piola stress; NaN of a rigid body", Matrix, matrix!("elastic_stress"), elasticity.elastic_stress),
-    strain!(Eshelby, "eshelby", "Pa", "Eshelby's stress A = F^T S G^T - det G phi I; NaN of a rigid body", Matrix, matrix!("eshelby"), elasticity.eshelby),
+    strain!(CanonicalMomentum, "canonical_momentum", "kg m2/s",
+        "canonical momentum Pdot J", Matrix, matrix!("canonical_momentum"), canonical_momentum),
+    strain!(KineticEnergy, "kinetic_energy_centre", "J",
+        "kinetic energy of the centre of mass", Scalar, &["kinetic_energy_centre"], kinetic_energy_of_centre),
+    strain!(KineticEnergy, "kinetic_energy_internal", "J",
+        "kinetic energy about the centre of mass", Scalar, &["kinetic_energy_internal"], internal_kinetic_energy),
+    strain!(ElasticGradient, "elastic_gradient", "1",
+        "elastic gradient F = P G^-1", Matrix, matrix!("elastic_gradient"), elasticity.elastic_gradient),
+    strain!(ElasticStress, "elastic_stress", "Pa",
+        "elastic part of the first Piola stress; NaN of a rigid body", Matrix,
+        matrix!("elastic_stress"), elasticity.elastic_stress),
+    strain!(Eshelby, "eshelby", "Pa",
+        "Eshelby's stress A = F^T S G^T - det G phi I; NaN of a rigid body", Matrix,
+        matrix!("eshelby"), elasticity.eshelby),
 ];
 
 /// Those told kind by kind.
@@ -157,7 +176,8 @@ static KINDS: [[ExtraField; 2]; LoadKind::COUNT] = [
     by_kind!(Spring, "force_spring", "moment_spring", "springs and bonds"),
     by_kind!(Drag, "force_drag", "moment_drag", "the fluid, with buoyancy"),
     by_kind!(Friction, "force_friction", "moment_friction", "linear friction"),
-    by_kind!(Load, "force_load", "moment_load", "couples, potentials, body forces, gyroscopic loads, and of a controller"),
+    by_kind!(Load, "force_load", "moment_load",
+        "couples, potentials, body forces, gyroscopic loads, and of a controller"),
 ];
 
 /// Every field that can be asked for, in the order in which they are recorded.
