@@ -7,7 +7,7 @@
 //!   ξ̇_t = −C_tt⁻¹ (K_ts ξ_s + C_ts ξ̇_s + K_tt ξ_t − B_t γ)
 //!
 //! which leaves the same equations of ξ_s with the states (ξ_t | γ). K and C are those of the bodies with inertia, a
-//! factor of whose rows drops out. Derivatives go along: a matrix that changes is a pair (A, ∂A).
+//! factor of whose rows drops out. Derivatives go along: a matrix stands with its changes, (A, ∂₁A, ∂₂A, …).
 
 use super::spectrum::FirstOrder;
 use nalgebra::{Complex, DMatrix, DVector};
@@ -57,30 +57,30 @@ pub(super) struct Inertial {
 /// One of the matrices.
 type MatrixOf = fn(&MotionMatrices) -> &DMatrix<C64>;
 
-/// A matrix, and its change.
+/// A matrix, then its changes.
 #[derive(Debug, Clone)]
-struct Changing {
-    value: DMatrix<C64>,
-    change: DMatrix<C64>,
-}
+struct Changing(Vec<DMatrix<C64>>);
 
 impl Changing {
     fn times(&self, other: &Self) -> Self {
-        Self { value: &self.value * &other.value, change: &self.change * &other.value + &self.value * &other.change }
+        let (Self(own), Self(others)) = (self, other);
+        let change = |(one, two): (&DMatrix<C64>, &DMatrix<C64>)| one * &others[0] + &own[0] * two;
+        let changes = own.iter().zip(others).skip(1).map(change);
+        Self(std::iter::once(&own[0] * &others[0]).chain(changes).collect())
     }
 
     fn plus(&self, other: &Self) -> Self {
-        Self { value: &self.value + &other.value, change: &self.change + &other.change }
+        Self(self.0.iter().zip(&other.0).map(|(one, two)| one + two).collect())
     }
 
     fn negative(&self) -> Self {
-        Self { value: -&self.value, change: -&self.change }
+        Self(self.0.iter().map(|matrix| -matrix).collect())
     }
 
     fn inverse(&self) -> Option<Self> {
-        let value = self.value.clone().try_inverse()?;
-        let change = -(&value * &self.change * &value);
-        Some(Self { value, change })
+        let value = self.0[0].clone().try_inverse()?;
+        let changes: Vec<_> = self.0[1..].iter().map(|change| -(&value * change * &value)).collect();
+        Some(Self(std::iter::once(value).chain(changes).collect()))
     }
 }
 
@@ -113,16 +113,16 @@ impl Inertial {
         states.rows(first, states.len() - first).into_owned()
     }
 
-    /// The matrices of (ξ_s | ξ_t, γ) and their change, given those of (ξ | γ); none where nothing resists.
-    pub fn condensed(&self, at: &MotionMatrices, change: &MotionMatrices) -> Option<[MotionMatrices; 2]> {
+    /// The matrices of (ξ_s | ξ_t, γ), then their changes, given those of (ξ | γ); none where nothing resists.
+    pub fn condensed(&self, given: &[&MotionMatrices]) -> Option<Vec<MotionMatrices>> {
         let (s, t) = (&self.moving[..], &self.weightless[..]);
-        let contractions: Vec<usize> = (0..at.own.nrows()).collect();
+        let contractions: Vec<usize> = (0..given[0].own.nrows()).collect();
         let g = &contractions[..];
         let part = |of: MatrixOf, rows: &[usize], columns: &[usize]| {
             let taken = |matrix: &DMatrix<C64>| {
                 DMatrix::from_fn(rows.len(), columns.len(), |i, j| matrix[(rows[i], columns[j])])
             };
-            Changing { value: taken(of(at)), change: taken(of(change)) }
+            Changing(given.iter().map(|matrices| taken(of(matrices))).collect())
         };
         let [k, c, b]: [MatrixOf; 3] = [|it| &it.stiffness, |it| &it.resistance, |it| &it.forces];
         let [d, e, h]: [MatrixOf; 3] = [|it| &it.by_place, |it| &it.by_rate, |it| &it.own];
@@ -141,22 +141,26 @@ impl Inertial {
             [part(d, g, t).plus(&answers.times(&own)), part(h, g, g).plus(&answers.times(&driven))];
         let rows_of_contractions =
             [part(d, g, s).plus(&answers.times(&by_place)), part(e, g, s).plus(&answers.times(&by_rate))];
-        let reduced = |of: fn(&Changing) -> &DMatrix<C64>| {
-            let beside = |left: &Changing, right: &Changing| joined([[of(left), of(right)]]);
-            let above = |upper: &Changing, lower: &Changing| joined([[of(upper)], [of(lower)]]);
+        let reduced = |number: usize| {
+            let beside = |left: &Changing, right: &Changing| joined([[&left.0[number], &right.0[number]]]);
+            let above = |upper: &Changing, lower: &Changing| joined([[&upper.0[number]], [&lower.0[number]]]);
+            let of = |matrix: &Changing| matrix.0[number].clone();
             MotionMatrices {
-                stiffness: of(&stiffness).clone(),
-                resistance: of(&resistance).clone(),
+                stiffness: of(&stiffness),
+                resistance: of(&resistance),
                 forces: beside(&forces[0], &forces[1]),
                 by_place: above(&by_place, &rows_of_contractions[0]),
                 by_rate: above(&by_rate, &rows_of_contractions[1]),
-                own: joined([[of(&own), of(&driven)], [of(&own_of_contractions[0]), of(&own_of_contractions[1])]]),
+                own: joined([
+                    [&own.0[number], &driven.0[number]],
+                    [&own_of_contractions[0].0[number], &own_of_contractions[1].0[number]],
+                ]),
             }
         };
-        Some([reduced(|it| &it.value), reduced(|it| &it.change)])
+        Some((0..given.len()).map(reduced).collect())
     }
 
-    /// The same of real matrices, without a change.
+    /// The same of real matrices, without changes.
     pub fn condensed_real(
         &self,
         (stiffness, resistance): (&DMatrix<f64>, &DMatrix<f64>),
@@ -172,8 +176,7 @@ impl Inertial {
             by_rate: complex(&first.by_rate),
             own: complex(&first.own),
         };
-        let still = MotionMatrices::zeros([stiffness.nrows(), first.own.nrows()]);
-        let [found, _] = self.condensed(&at, &still)?;
+        let found = self.condensed(&[&at])?.swap_remove(0);
         let turns = self.weightless.iter().map(|_| false).chain(first.turns.iter().copied()).collect();
         let first = FirstOrder {
             forces: real(&found.forces),

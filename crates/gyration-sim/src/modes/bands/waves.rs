@@ -106,17 +106,14 @@ impl BlochSystem {
     }
 
     fn dissipative(&self, kappa: &[f64; 3], along: &Vec3) -> Result<Waves, NoRoots> {
-        let matrices = self.wave(kappa);
-        let slopes = [Vec3::x(), Vec3::y(), Vec3::z(), *along].map(|axis| self.slope(kappa, &axis));
-        let (matrices, slopes) = match self.inertial.weightless.is_empty() {
-            true => (matrices, slopes.to_vec()),
-            false => {
-                let condensed = |slope| self.inertial.condensed(&matrices, slope).ok_or(NoRoots);
-                let pairs = slopes.iter().map(condensed).collect::<Result<Vec<_>, _>>()?;
-                let (at, changes): (Vec<_>, Vec<_>) = pairs.into_iter().map(|[at, change]| (at, change)).unzip();
-                (at.into_iter().next().ok_or(NoRoots)?, changes)
-            }
-        };
+        let mut matrices = self.wave(kappa);
+        let mut slopes: Vec<_> =
+            [Vec3::x(), Vec3::y(), Vec3::z(), *along].iter().map(|axis| self.slope(kappa, axis)).collect();
+        if !self.inertial.weightless.is_empty() {
+            let given: Vec<_> = std::iter::once(&matrices).chain(&slopes).collect();
+            slopes = self.inertial.condensed(&given).ok_or(NoRoots)?;
+            matrices = slopes.remove(0);
+        }
         let system = FirstOrderWaves::new(matrices, NEUTRAL * self.stiffest_moving, self.inertial.places())?;
         let found = system.roots()?;
         let mut waves = Vec::new();
