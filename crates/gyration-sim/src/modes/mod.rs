@@ -22,6 +22,7 @@ mod coordinates;
 mod equilibrium;
 mod frozen;
 mod participation;
+mod parts;
 mod settling;
 mod shape;
 mod slopes;

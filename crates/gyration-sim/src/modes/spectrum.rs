@@ -10,6 +10,7 @@
 //! What does not act on each other falls into parts; a part of one coordinate is λ² + cλ + k = 0.
 
 use super::canonical::Basis;
+use super::parts::joined_parts;
 use super::{ModeBehaviour, NoSpectrum};
 use nalgebra::{Complex, ComplexField, DMatrix, DVector, Schur};
 
@@ -192,24 +193,9 @@ impl System {
         };
         // What only turns the relaxed shape, and is not felt, is no motion.
         let felt = |k: usize| (0..count + first.own.nrows()).any(|i| acts(i, count + k));
-        let mut left: Vec<usize> = (0..count)
-            .chain((0..first.own.nrows()).filter(|k| !first.turns[*k] || felt(*k)).map(|k| count + k))
-            .collect();
-        let mut parts = Vec::new();
-        while let Some(first) = left.first().copied() {
-            left.remove(0);
-            let mut part = vec![first];
-            let mut at = 0;
-            while at < part.len() {
-                let (joined, apart) = left.iter().partition(|j| acts(part[at], **j) || acts(**j, part[at]));
-                left = apart;
-                part.extend::<Vec<usize>>(joined);
-                at += 1;
-            }
-            part.sort_unstable();
-            parts.push(part);
-        }
-        parts
+        let moving =
+            (0..count).chain((0..first.own.nrows()).filter(|k| !first.turns[*k] || felt(*k)).map(|k| count + k));
+        joined_parts(moving.collect(), acts)
     }
 
     /// λ² + cλ + k = 0.

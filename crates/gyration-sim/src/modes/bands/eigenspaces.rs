@@ -4,6 +4,7 @@
 //! coordinates do not act on each other, and many equal eigenvalues, on which the iteration may stall, are each in
 //! another part.
 
+use super::super::parts::joined_parts;
 use super::bloch::C64;
 use nalgebra::{ComplexField, DMatrix, DVector, Dyn, Schur, SymmetricEigen};
 
@@ -56,23 +57,7 @@ impl Eigenspace {
 
 /// The indices that entries join, part by part, ascending.
 fn parts(matrix: &DMatrix<C64>) -> Vec<Vec<usize>> {
-    let joined = |i: usize, j: usize| matrix[(i, j)].modulus() > 0.0 || matrix[(j, i)].modulus() > 0.0;
-    let mut left: Vec<usize> = (0..matrix.nrows()).collect();
-    let mut parts = Vec::new();
-    while let Some(first) = left.first().copied() {
-        left.remove(0);
-        let mut part = vec![first];
-        let mut at = 0;
-        while at < part.len() {
-            let (near, others) = left.iter().partition::<Vec<usize>, _>(|j| joined(part[at], **j));
-            part.extend(near);
-            left = others;
-            at += 1;
-        }
-        part.sort_unstable();
-        parts.push(part);
-    }
-    parts
+    joined_parts((0..matrix.nrows()).collect(), |i, j| matrix[(i, j)].modulus() > 0.0)
 }
 
 /// 1 − 2 v ⊗ v of a unit vector without zeros and without symmetry, another for each number.
