@@ -2,7 +2,9 @@
 
 use super::modes::{Named, RestPlace, left_out};
 use crate::modes::PARTS;
-use crate::modes::bands::{BandPath, BandRow, BandShape, LatticeWaves, NoBands, Sound, StrainPath, StrainedCell, Zone};
+use crate::modes::bands::{
+    BandPath, BandRow, BandShape, LatticeWaves, MOST_POINTS, NoBands, Sound, StrainPath, StrainedCell, Zone,
+};
 use crate::waves::PassingWaves;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::{Scene, UnitCell};
@@ -92,6 +94,17 @@ pub fn unit_cell(scene: &Scene) -> Result<&UnitCell, String> {
     Ok(cell)
 }
 
+/// Refuses a mesh of more wave vectors than are worth it.
+pub(super) fn check_mesh(mesh: usize, periodic: &[bool]) -> Result<(), String> {
+    let directions = periodic.iter().filter(|periodic| **periodic).count() as u32;
+    match mesh.checked_pow(directions).filter(|many| *many <= MOST_POINTS) {
+        Some(_) => Ok(()),
+        None => {
+            Err(format!("a mesh of {mesh} along each direction has more than {MOST_POINTS} wave vectors: take fewer"))
+        }
+    }
+}
+
 impl BandSurvey {
     /// Along a path as it is written, or the usual one.
     ///
@@ -102,6 +115,7 @@ impl BandSurvey {
         let usual = BandPath::usual(&cell.periodic);
         let path = BandPath::parse(path.unwrap_or(&usual), options.points, &cell.periodic);
         let path = path.map_err(|error| error.to_string())?;
+        options.mesh.map_or(Ok(()), |mesh| check_mesh(mesh, &cell.periodic))?;
         let told = |error: NoBands| error.to_string();
         let waves = waves_of(cell, options.strain.as_ref()).map_err(told)?;
         let rows = path.points.iter().map(|point| waves.row(point, options.shapes));
@@ -188,8 +202,7 @@ fn warnings(waves: &LatticeWaves, rows: &[BandRow]) -> Vec<String> {
     if let Some(left) = waves.rest().unrest {
         warnings.push(format!(
             "the cell as it is written does not rest: accelerations of {left:.2e} in units of the bodies' sizes are \
-             left; \
-             relax = [\"granules\"] seeks its rest"
+             left; relax = [\"granules\"] seeks its rest"
         ));
     }
     let growing = |row: &BandRow| {

@@ -1,6 +1,6 @@
 //! What becomes of a lattice as its cell is deformed, in a form to print.
 
-use super::bands::{beginning, unit_cell};
+use super::bands::{beginning, check_mesh, unit_cell};
 use crate::modes::bands::{Instability, NoBands, StrainPath, StrainedRow, ZoneMesh};
 use gyration::tensor::Mat3;
 use gyration_scene::Scene;
@@ -59,6 +59,7 @@ impl StrainSurvey {
     pub fn of(scene: &Scene, path: &StrainPath, steps: usize, mesh: Option<usize>) -> Result<Self, String> {
         let cell = unit_cell(scene)?;
         let usual = ZoneMesh::usual(&cell.periodic);
+        mesh.map_or(Ok(()), |mesh| check_mesh(mesh, &cell.periodic))?;
         let zone = ZoneMesh { count: mesh.unwrap_or(usual.count), ..usual };
         let found = beginning(cell).and_then(|cell| cell.along(path, steps, zone));
         let (rows, instability) = found.map_err(|error: NoBands| error.to_string())?;

@@ -21,7 +21,7 @@ mod strained;
 mod waves;
 
 pub use mesh::{BandGap, StateDensity, Zone};
-pub use path::{BandPath, PathError, PathPoint};
+pub use path::{BandPath, MOST_POINTS, PathError, PathPoint};
 pub use sound::Sound;
 pub use stability::{LeastSquare, Stability, Unstable, ZoneMesh};
 pub use strained::{Instability, StrainError, StrainPath, StrainedCell, StrainedRow};

@@ -22,6 +22,9 @@ pub struct PathPoint {
     pub begins: bool,
 }
 
+/// The most wave vectors of a path, or of a mesh.
+pub const MOST_POINTS: usize = 1_000_000;
+
 /// What is wrong with a path.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum PathError {
@@ -36,6 +39,9 @@ pub enum PathError {
         /// As it is written.
         word: String,
     },
+    /// It has too many wave vectors.
+    #[error("the path has {0} wave vectors, more than {MOST_POINTS}: take fewer points a segment")]
+    TooMany(usize),
     /// It leaves what is periodic.
     #[error("\"{word}\" leaves what is periodic: along {direction} the lattice has no waves; write 0 there")]
     NotPeriodic {
@@ -59,10 +65,15 @@ impl BandPath {
     /// [`PathError`].
     pub fn parse(text: &str, points: usize, periodic: &[bool]) -> Result<Self, PathError> {
         let mut path = Self::default();
-        for part in text.split('|') {
-            let vertices = part.split_whitespace().map(|word| vertex(word, periodic));
-            path.add(&vertices.collect::<Result<Vec<_>, _>>()?, points.max(2));
+        let parts = text.split('|').map(|part| part.split_whitespace().map(|word| vertex(word, periodic)).collect());
+        let parts: Vec<Vec<Vertex>> = parts.collect::<Result<_, _>>()?;
+        let points = points.max(2);
+        let segments: usize = parts.iter().map(|vertices| vertices.len().saturating_sub(1)).sum();
+        let many = segments.saturating_mul(points - 1);
+        if many > MOST_POINTS {
+            return Err(PathError::TooMany(many));
         }
+        parts.iter().for_each(|vertices| path.add(vertices, points));
         if path.points.is_empty() { Err(PathError::Empty) } else { Ok(path) }
     }
 
@@ -156,6 +167,7 @@ mod tests {
         }
         let beyond = BandPath::parse("0,0,0 0,0.5,0", 3, &[true]);
         assert_eq!(beyond, Err(PathError::NotPeriodic { word: "0,0.5,0".into(), direction: 2 }));
+        assert_eq!(BandPath::parse("0,0,0 0.5,0,0", usize::MAX, &[true]), Err(PathError::TooMany(usize::MAX - 1)));
         assert_eq!(BandPath::usual(&[true, true]), "0,0,0 0.5,0,0 0.5,0.5,0 0,0,0");
     }
 }
