@@ -412,6 +412,20 @@ fn what_has_no_rest_state_is_said_in_words() {
 }
 
 #[test]
+fn what_a_fluid_remembers_is_no_drag() {
+    // Symptom: a ball on a spring crept, with decay rates of a million.
+    let text = "world = { gravity = [0, 0, 0] }\ntime = { end = 1, sample = 1 }\n\
+                fluid = { viscosity = 0.1, density = 1 }\nlattice = { cell = [[0.1, 0, 0]] }\n[[body]]\n\
+                name = \"ball\"\nshape = { sphere = { radius = 0.02 } }\ndensity = 1000\n\
+                inclusion = { history = true }\nspring = [{ anchor = [0, 0, 0], stiffness = 10 }]\n";
+    let scene = gyration_scene::Scene::parse("scene.toml", text, std::path::Path::new(""), &[]).unwrap();
+    let cell = scene.built().cell.as_ref().unwrap();
+    assert_eq!(rest(&cell.model, &cell.state, 0).unwrap_err(), NoRest::Remembered);
+    let waves = gyration_sim::modes::bands::LatticeWaves::new(&cell.model, &cell.state, false);
+    assert!(waves.is_err_and(|error| error.to_string().contains("history = false")));
+}
+
+#[test]
 fn supports_that_move_are_held_where_they_are_at_the_start() {
     let (model, state) = standing(0.2, None);
     let mut moving = model.clone();
