@@ -1,6 +1,8 @@
 //! What can be wrong with a lattice, each at its exact place (`§`), with the fix.
 
 use crate::common::{TIME, assert_error};
+use gyration_scene::Scene;
+use std::path::Path;
 
 const POINT: &str = "[[body]]\nname = \"a\"\nshape = { points = [{ mass = 1, at = [0, 0, 0] }] }\n";
 const WEIGHTLESS: &str = "[world]\ngravity = [0, 0, 0]\n";
@@ -43,6 +45,19 @@ fn errors_of_a_lattice_stand_at_their_place() {
     for (lines, key, message, help) in rows {
         assert_error(&format!("{TIME}{WEIGHTLESS}{POINT}{lines}\n"), key, message, help);
     }
+}
+
+#[test]
+fn forces_of_a_lattice_look_alike_from_every_cell_and_its_errors_come_alone() {
+    let body = |force: &str| format!("{TIME}{WEIGHTLESS}{CHAIN}{POINT}body_force = §[\"{force}\", \"0\", \"0\"]\n");
+    assert_error(&body("-0.1*x"), "body.a.body_force", "changes along cell vector 1", "let it repeat");
+    for alike in ["sin(2*pi*x)*cos(t)", "-0.1*y"] {
+        let text = body(alike).replace('§', "");
+        assert!(Scene::parse("scene.toml", &text, Path::new(""), &[]).is_ok(), "{alike}");
+    }
+    let spring = "[[spring]]\nbetween = [\"a\", \"a\"]\ncell = [1, 0, 0]\nstiffness = 1\n";
+    let text = format!("{TIME}{WEIGHTLESS}{POINT}[lattice]\ncell = §[[0, 0, 0]]\n{spring}");
+    assert_error(&text, "lattice.cell", "depend on one another", "span");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::absorb::{Absorbers, AbsorbingEnds};
 use super::body::AssembledBody;
+use super::start::placement;
 use crate::check::Reporter;
 use crate::file::{self, Relaxed};
 use crate::key::Key;
@@ -270,6 +271,7 @@ impl Cells {
         supports: &[Support],
         contacts: &[Contact],
         fluid: Option<&Fluid>,
+        bodies: &[Option<AssembledBody>],
         reporter: &mut Reporter<'_>,
     ) {
         for (a, vector) in self.lattice.vectors().iter().enumerate() {
@@ -283,6 +285,24 @@ impl Cells {
                     let message = format!("cell vector {number} leads off this support: cells do not see it alike");
                     let key = Key::root().key("support").index(index).key("plane");
                     reporter.note(&key, message, "turn its normal across all cell vectors");
+                }
+            }
+            for (index, body) in bodies.iter().enumerate() {
+                let Some((body, force)) = body.as_ref().and_then(|it| Some((it, it.body.own.body_force.as_ref()?)))
+                else {
+                    continue;
+                };
+                let center = placement(&body.start).position;
+                let beside = [[0.0, 0.0, 0.0], [0.31, 0.17, -0.23], [-0.19, 0.37, 0.29], [0.11, -0.41, 0.13]];
+                let points = beside.map(|[x, y, z]| center + body.body.size * Vec3::new(x, y, z));
+                if !force.field().is_alike(&points, vector) {
+                    let message = format!("the force changes along cell vector {number}: cells do not see it alike");
+                    let key = Key::root().key("body").index(index).key("body_force");
+                    reporter.note(
+                        &key,
+                        message,
+                        "let it repeat with the cell; `potential` is of the place in the cell",
+                    );
                 }
             }
             if let Some(fluid) = fluid {
@@ -315,6 +335,10 @@ pub(super) fn check_held(gravity: &Vec3, contacts: &[Contact], bodies: &[Assembl
 /// Whether a cell is one of a lattice; notes why not.
 pub(super) fn check_cell(cell: Cell, lattice: Option<&Cells>, key: &Key, reporter: &mut Reporter<'_>) -> bool {
     let Some(cells) = lattice else {
+        // One with an error still counts.
+        if reporter.document.root.get("lattice").is_some() {
+            return false;
+        }
         reporter.note(key, "there are no other cells: the scene has no `[lattice]`", "leave it out, or add a lattice");
         return false;
     };

@@ -224,7 +224,7 @@ pub(crate) fn assemble(
     if let Some(cells) = of_cell {
         let supports: Vec<_> = supports.iter().flatten().cloned().collect();
         let fluid = around.as_ref().and_then(Option::as_ref);
-        cells.check_alike(&supports, &contacts, fluid, reporter);
+        cells.check_alike(&supports, &contacts, fluid, &assembled, reporter);
         let bodies: Vec<AssembledBody> = assembled.iter().flatten().cloned().collect();
         waves = partial.lattice.as_ref().and_then(|written| wave::waves(written, cells, reporter));
         lattice::check_held(&si(&partial.world.gravity), &contacts, &bodies, reporter);

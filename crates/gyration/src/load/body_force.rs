@@ -27,6 +27,9 @@ const MOST_POINTS: usize = 4096;
 /// The largest degree of a polynomial that is integrated exactly.
 const LARGEST_DEGREE: usize = 12;
 
+/// Differences below this part of the largest force are the rounding of places.
+const ALIKE: f64 = 1e-9;
+
 /// The components of b.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FieldOfForce([Expression; 3]);
@@ -58,6 +61,21 @@ impl FieldOfForce {
     /// The degree of the polynomial in x, y, z that b is; none if it is none.
     pub fn degree(&self) -> Option<usize> {
         self.0.iter().map(|component| component.degree(&[0, 1, 2])).try_fold(0, |most, degree| Some(degree?.max(most)))
+    }
+
+    /// Whether b is the same at these points and as far beyond them [m], at some times, to rounding; where it has no
+    /// value it is.
+    pub fn is_alike(&self, points: &[Vec3], beyond: &Vec3) -> bool {
+        let scratch = &mut Scratch::default();
+        let mut pairs = Vec::new();
+        for time in [0.0, 0.37, 1.7] {
+            for point in points {
+                let mut value = |place: &Vec3| self.at(place, time, false, scratch).ok().map(|(force, _)| force);
+                pairs.extend(value(point).zip(value(&(point + beyond))));
+            }
+        }
+        let largest = pairs.iter().map(|(here, there)| here.amax().max(there.amax())).fold(0.0, f64::max);
+        pairs.iter().all(|(here, there)| (here - there).amax() <= ALIKE * largest)
     }
 
     /// b and ∂b/∂x at a point.
@@ -120,6 +138,11 @@ impl BodyForce {
         });
         found.differentiated(place, time, scratch)?;
         Ok(found)
+    }
+
+    /// b.
+    pub fn field(&self) -> &FieldOfForce {
+        &self.field
     }
 
     /// The relative error of its rule at the start; none where it is exact.
