@@ -15,6 +15,7 @@ mod case_contraction_modes;
 mod case_deforming_inclusion;
 mod case_gallery_dissipates;
 mod case_guides;
+mod case_kept_lattices;
 mod case_kept_through_partings;
 mod case_loads_and_momenta;
 mod case_own_forces;

@@ -52,9 +52,6 @@ fn what_cannot_be_kept_to_is_refused_with_the_fix() {
     let point = "[[body]]\nname = \"p\"\nshape = { points = [{ mass = 1, at = [0, 0, 0] }] }\n";
     let turned = format!("{TIME}{point}keep = {{ axis = §[0, 0, 1] }}\n");
     assert_error(&turned, "body.p.keep.axis", "does not turn", "some width");
-    let lattice = "[lattice]\ncell = [[1, 0, 0]]\n[world]\ngravity = [0, 0, 0]\n";
-    let cell = format!("{TIME}{lattice}{point}keep = §{{ line = [0, 0, 1] }}\n");
-    assert_error(&cell, "body.p.keep", "of a lattice", "leave out one");
     let fluid = "[fluid]\nviscosity = 1\ndensity = 1\n";
     let history = "keep = { line = [0, 0, 1] }\ninclusion = { history = §true }\n";
     assert_error(&format!("{TIME}{fluid}{BALL}{history}"), "body.ball.inclusion.history", "a `keep`", "leave out one");

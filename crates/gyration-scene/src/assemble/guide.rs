@@ -40,10 +40,6 @@ pub(super) fn guide(
     let Some(written) = placed.value.keep else { return Some(None) };
     let key = placed.key.key("keep");
     let kept = Kept::of(written, &key, reporter)?;
-    if reporter.document.root.get("lattice").is_some() {
-        reporter.note(&key, "the bodies of a lattice are kept to nothing", "leave out one of `keep` and `[lattice]`");
-        return None;
-    }
     let place = placement(start);
     let fault = kept.unfit(kind, placed.value.pin.as_ref().map(si), &place);
     if let Some((message, help)) = fault {

@@ -73,7 +73,7 @@ fn none(error: NoBands, wave: Option<usize>) -> NoWave {
     let help = match error {
         NoBands::Rest(_) => "change the cell, or write relax = [] to start from the state as it is written",
         NoBands::Roots(_) | NoBands::Evanescent(_) => "take another wave vector",
-        NoBands::CellNotHeld(_) | NoBands::CellNotFound(_) => "leave \"cell\" out of `relax`",
+        NoBands::CellNotHeld(_) | NoBands::CellNotFound(_) | NoBands::Guide(_) => "leave \"cell\" out of `relax`",
         NoBands::Interrupted => "raise solver.max_wall_time",
     };
     NoWave { wave, key: None, is_interrupted: error == NoBands::Interrupted, problem: error.to_string(), help }

@@ -3,6 +3,7 @@
 //! A model and a [`State`](crate::state::State) hold all there is: everything else can be recomputed from them.
 
 mod chains;
+mod deformed;
 mod ledger;
 
 use crate::acting::{Interacting, Load, PairAt};

@@ -83,6 +83,9 @@ pub enum NoBands {
     /// Nothing holds the cell.
     #[error("no least energy holds the cell vectors: F̄_{0} has no stiffness, or less than none, under this stress")]
     CellNotHeld(String),
+    /// A body cannot follow the cell.
+    #[error("\"{0}\" is kept to a line or a plane out of which this strain of the cell takes it: leave out `keep`")]
+    Guide(String),
     /// The cell at rest was not found.
     #[error("no cell at rest was found: steps of {0:.1e} in F̄ are left; begin with vectors nearer to it")]
     CellNotFound(f64),

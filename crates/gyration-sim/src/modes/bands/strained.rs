@@ -34,6 +34,9 @@ pub enum StrainError {
         /// As it is written.
         word: String,
     },
+    /// A range stands where one value is wanted.
+    #[error("--strain takes one value of each component, as xx=-0.05; ranges are for --along")]
+    Range,
     /// The cell would be turned inside out.
     #[error("a strain must leave det F̄ > 0: at s = {s} it is {determinant}")]
     Inverted {
@@ -75,6 +78,15 @@ impl StrainPath {
             }
             None => Ok(path),
         }
+    }
+
+    /// One value, as `xx=-0.05,xy=0.01`.
+    ///
+    /// # Errors
+    /// [`StrainError`].
+    pub fn parse_value(text: &str) -> Result<Self, StrainError> {
+        let path = Self::parse(text)?;
+        if path.ends[0] == path.ends[1] { Ok(path) } else { Err(StrainError::Range) }
     }
 
     /// F̄.
@@ -139,14 +151,15 @@ impl StrainedCell {
     /// [`NoBands`].
     pub fn at(&self, gradient: &Mat3) -> Result<(Self, LatticeWaves), NoBands> {
         let step = self.gradient.try_inverse().map_or(*gradient, |inverse| gradient * inverse);
-        let origins: Vec<_> =
-            (0..self.model.bodies.len()).map(|body| step * self.model.in_space(body, &Vec3::zeros())).collect();
-        let model = self.model.clone().in_lattice(self.written.deformed(gradient)).beginning_at(origins);
+        if let Some(body) = self.model.leaves_guide(&step) {
+            return Err(NoBands::Guide(self.model.name(body).to_owned()));
+        }
+        let model = self.model.clone().with_cells_deformed(&step, self.written.deformed(gradient));
         let mut state = self.state.clone();
         for body in 0..model.bodies.len() {
             let place = &mut state.bodies[model.slots(body).position()];
             if let [x, y, z] = *place {
-                place.copy_from_slice((step * gyration::tensor::Vec3::new(x, y, z)).as_slice());
+                place.copy_from_slice((step * Vec3::new(x, y, z)).as_slice());
             }
         }
         let waves = LatticeWaves::new(&model, &state, true)?;
@@ -181,8 +194,9 @@ impl StrainedCell {
         let mut rows: Vec<StrainedRow> = Vec::new();
         let mut instability = None;
         let mut last = self;
-        for k in 0..steps.max(2) {
-            let s = k as f64 / (steps.max(2) - 1) as f64;
+        let steps = steps.max(2);
+        for k in 0..steps {
+            let s = k as f64 / (steps - 1) as f64;
             let gradient = path.at(s);
             let (cell, waves) = last.at(&gradient)?;
             let stability = waves.stability(zone)?;
