@@ -28,9 +28,26 @@ pub struct FirstSteps {
     /// The largest difference of a force between bodies by the planes remembered and those found from nothing, over the
     /// largest force of the moment.
     pub planes: f64,
-    /// The largest change of the total momentum over Σ m |v|, and of the total angular momentum over Σ of the sizes of
-    /// its terms, |v| that of the fastest material point; none where something from outside acts.
-    pub momenta: Option<[f64; 2]>,
+    /// How far the total momenta have changed; none where something from outside acts.
+    pub momenta: Option<MomentumChange>,
+}
+
+/// The largest change of the momenta of all bodies together, over the sums of the sizes of their terms.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct MomentumChange {
+    /// Of the momentum, over Σ m |v|, |v| that of the fastest material point.
+    pub momentum: f64,
+    /// Of the angular momentum; none in a lattice, whose cells may be one another's neighbours round a ring.
+    pub angular_momentum: Option<f64>,
+}
+
+impl MomentumChange {
+    /// The larger of each.
+    fn or_more(&self, other: &Self) -> Self {
+        let angular = self.angular_momentum.zip(other.angular_momentum);
+        let momentum = self.momentum.max(other.momentum);
+        Self { momentum, angular_momentum: angular.map(|(one, two)| one.max(two)) }
+    }
 }
 
 impl FirstSteps {
@@ -66,8 +83,7 @@ impl FirstSteps {
             this.planes = this.planes.max(planes(job.model, &before, &after).unwrap_or(0.0));
             if let Some(start) = &start {
                 let moved = Momenta::of(job.model, &after).map(|now| now.since(start));
-                let most = this.momenta.unwrap_or_default();
-                this.momenta = moved.map(|moved| [0, 1].map(|k| most[k].max(moved[k])));
+                this.momenta = moved.map(|moved| this.momenta.map_or(moved, |most| moved.or_more(&most)));
             }
             if outcomes[0].is_some() {
                 break;
@@ -146,6 +162,8 @@ struct Momenta {
     angular: Vec3,
     /// Σ of the sizes of what they are sums of.
     terms: [f64; 2],
+    /// Whether space has no direction of its own, as that of a lattice has.
+    turns: bool,
 }
 
 impl Momenta {
@@ -156,7 +174,8 @@ impl Momenta {
             return None;
         }
         let mut workspace = Workspace::default();
-        let mut sum = Self { linear: Vec3::zeros(), angular: Vec3::zeros(), terms: [0.0; 2] };
+        let turns = model.lattice.vectors().is_empty();
+        let mut sum = Self { linear: Vec3::zeros(), angular: Vec3::zeros(), terms: [0.0; 2], turns };
         for (index, body) in model.bodies.iter().enumerate() {
             let seen = observe(model, &mut workspace, state, index).ok()?;
             sum.linear += seen.linear_momentum;
@@ -169,9 +188,13 @@ impl Momenta {
     }
 
     /// How far they have moved since then, over the larger of the sums of terms.
-    fn since(&self, start: &Self) -> [f64; 2] {
-        let moved = [(self.linear - start.linear).norm(), (self.angular - start.angular).norm()];
-        [0, 1].map(|k| if moved[k] > 0.0 { moved[k] / self.terms[k].max(start.terms[k]) } else { 0.0 })
+    fn since(&self, start: &Self) -> MomentumChange {
+        let part = |k: usize, moved: Vec3| match moved.norm() {
+            0.0 => 0.0,
+            moved => moved / self.terms[k].max(start.terms[k]),
+        };
+        let angular_momentum = self.turns.then(|| part(1, self.angular - start.angular));
+        MomentumChange { momentum: part(0, self.linear - start.linear), angular_momentum }
     }
 }
 

@@ -37,12 +37,12 @@ pub mod survey;
 pub mod waves;
 
 pub use adapter::Tolerance;
-pub use first_steps::FirstSteps;
+pub use first_steps::{FirstSteps, MomentumChange};
 pub use outcome::{Outcome, Reason, Stop, limit_in_words};
 pub use plan::{RestCriterion, RunPlan};
 pub use ports::{Monitor, Progress, RunError, Sink, WindowEnd};
 pub use record::{Job, MemorySink, Provenance, RecordingEnd, Unwatched, differences};
-pub use resistance::{complete, completed, open};
+pub use resistance::{complete, completed, open, open_at_rest};
 pub use run::Simulation;
 pub use stepping::{Refusal, SteppedRun};
 pub use summary::{Balance, BodySummary, LedgerSummary, OpenLedgers, RunSummary, Verdict};

@@ -9,7 +9,7 @@ use crate::waiting::waiting;
 use gyration_scene::{LoadError, Scene};
 use gyration_sim::format::significant;
 use gyration_sim::survey::Survey;
-use gyration_sim::{FirstSteps, Job, MemorySink, RunError, Simulation};
+use gyration_sim::{FirstSteps, Job, MemorySink, MomentumChange, RunError, Simulation};
 use serde_json::json;
 use std::num::NonZeroUsize;
 
@@ -51,8 +51,8 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
             }
         }
         if let Some(FirstSteps { windows, difference, planes, momenta }) = &steps {
-            let moved = momenta.map(|[linear, angular]| json!({ "momentum": linear, "angular_momentum": angular }));
-            value["steps"] = json!({ "count": windows, "difference": difference, "planes": planes, "changes": moved });
+            value["steps"] =
+                json!({ "count": windows, "difference": difference, "planes": planes, "changes": momenta });
         }
         format!("{value:#}\n")
     } else {
@@ -91,9 +91,10 @@ fn in_words(steps: &FirstSteps) -> String {
     if *planes > 0.0 {
         text += &format!("; planes found anew push alike to {}", significant(*planes, 2));
     }
-    if let Some([linear, angular]) = momenta {
-        let [linear, angular] = [linear, angular].map(|change| significant(*change, 2));
-        text += &format!("; momentum kept to {linear}, angular momentum to {angular} of what moves");
+    if let Some(MomentumChange { momentum, angular_momentum }) = momenta {
+        text += &format!("; momentum kept to {}", significant(*momentum, 2));
+        text += &angular_momentum.map(|it| format!(", angular momentum to {}", significant(it, 2))).unwrap_or_default();
+        text += " of what moves";
     }
     text + "\n"
 }
