@@ -16,6 +16,11 @@ pub fn ready(arguments: &SceneArguments) -> Result<Scene, CliError> {
     Ok(gyration_sim::open(&arguments.scene, &arguments.overrides)?)
 }
 
+/// The same, at rest: without the waves with which its run starts.
+pub fn at_rest(arguments: &SceneArguments) -> Result<Scene, CliError> {
+    Ok(gyration_sim::open_at_rest(&arguments.scene, &arguments.overrides)?)
+}
+
 /// The name of a file or directory without folder and ending.
 pub fn stem(path: &Path) -> String {
     // `.` and `..` have no name of their own.

@@ -154,6 +154,8 @@ fn what_bands_cannot_do_is_refused() {
         (&["string.toml", "--complex", "--omega", "3"], "0..20"),
         (&["string.toml", "--along", "xx"], "no component"),
         (&["string.toml", "--strain", "xx=-1"], "det"),
+        (&["string.toml", "--strain", "xx=0..0.1"], "one value of each component"),
+        (&["string.toml", "--along", "xx=0..0.1", "--steps", "1"], "--steps 2"),
         (&["string.toml", "--omega", "0..3"], "--complex"),
         (&["string.toml", "--plot", "bands.gif"], ""),
     ] {

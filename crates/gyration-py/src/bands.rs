@@ -63,7 +63,8 @@ pub fn bands<'py>(
         let found = interruptibly(py, || StrainSurvey::of(&scene, &along, steps, mesh))?.map_err(errors::arguments)?;
         return strained(py, &found);
     }
-    let strain = strain.map(strains).transpose()?;
+    let strain =
+        strain.map(StrainPath::parse_value).transpose().map_err(|error| errors::arguments(error.to_string()))?;
     let options = BandOptions { points: counted("points", points)?, mesh, shapes, strain };
     if complex {
         let wrong = || errors::arguments(format!("{direction} is no direction\n  fix: give 1, 2 or 3"));

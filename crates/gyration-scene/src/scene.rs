@@ -150,6 +150,13 @@ impl Scene {
         if diagnostics.is_empty() { Ok(self) } else { Err(document.errors(diagnostics)) }
     }
 
+    /// The scene as it is without the waves with which its run starts.
+    #[must_use]
+    pub fn without_waves(mut self) -> Self {
+        self.built.waves = None;
+        self
+    }
+
     /// The waves as the file has them.
     fn written_waves(&self) -> Option<&OneOrMany<LatticeWave>> {
         self.file.lattice.as_ref()?.wave.as_ref()

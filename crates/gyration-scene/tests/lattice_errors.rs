@@ -13,7 +13,29 @@ fn errors_of_a_lattice_stand_at_their_place() {
     let spring = |ends: &str| format!("[[spring]]\nbetween = [\"a\", \"a\"]\nstiffness = 1\n{ends}\n");
     let rows = [
         ("[lattice]\ncell = §[[1, 0, 0], [2, 0, 0]]".to_owned(), "lattice.cell", "depend on one another", "span"),
-        ("[lattice]\ncell = §[[0, 0, 0]]".to_owned(), "lattice.cell", "depend on one another", "span"),
+        ("[lattice]\ncell = §[[0, 0, 0]]".to_owned(), "lattice.cell", "cell vector 1 is zero", "span"),
+        (
+            format!("{CHAIN}relax = [\"cell\"]\nstress = §[[0, 0, 0], [0, 1, 0], [0, 0, 0]]"),
+            "lattice.stress",
+            "across the cell vectors",
+            "in the space that they span",
+        ),
+        (
+            format!(
+                "{CHAIN}repeat = [8, 1, 1]\nwave = {{ kappa = [0.1, 0, 0], amplitude = 1e-3, at = [4, §1, 0], width = 1 }}"
+            ),
+            "lattice.wave.at.1",
+            "has 1 cell vectors",
+            "write 0",
+        ),
+        (
+            format!(
+                "{CHAIN}[[bond]]\nbetween = [\"a\", \"a\"]\ncell = [1, 0, 0]\nlaw = \"l^2\"\naxes = §[[1, 0, 0], [0, 1, 0]]"
+            ),
+            "bond.0.axes",
+            "this bond has neither",
+            "leave them out",
+        ),
         (format!("{CHAIN}periodic = §[true, false]"), "lattice.periodic", "2 entries for 1 cell vectors", "write true"),
         (format!("{CHAIN}repeat = [4, §2, 1]"), "lattice.repeat.1", "no cell vector 2", "write 1"),
         (format!("{CHAIN}§period = true"), "lattice.period", "unknown key", "`periodic`"),
@@ -57,7 +79,15 @@ fn forces_of_a_lattice_look_alike_from_every_cell_and_its_errors_come_alone() {
     }
     let spring = "[[spring]]\nbetween = [\"a\", \"a\"]\ncell = [1, 0, 0]\nstiffness = 1\n";
     let text = format!("{TIME}{WEIGHTLESS}{POINT}[lattice]\ncell = §[[0, 0, 0]]\n{spring}");
-    assert_error(&text, "lattice.cell", "depend on one another", "span");
+    assert_error(&text, "lattice.cell", "cell vector 1 is zero", "span");
+}
+
+#[test]
+fn overlap_with_an_image_is_told_as_that() {
+    let ball = "[[body]]\nname = \"a\"\nshape = { sphere = { radius = 0.6 } }\ndensity = 1\n";
+    let law = "repulsion = { alpha = 1, nu = 6, d0 = 0.01 }\nreach = 0.1\n";
+    let text = format!("{TIME}{WEIGHTLESS}{CHAIN}{ball}[[contact]]\nbetween = §[\"a\", \"a\"]\n{law}");
+    assert_error(&text, "contact.0.between", "the image of \"a\" in the cell [1, 0, 0]", "lengthen the cell vectors");
 }
 
 #[test]

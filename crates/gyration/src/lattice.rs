@@ -24,12 +24,21 @@ pub struct Lattice {
     vectors: Vec<Vec3>,
 }
 
-/// Vectors that lie in a plane, or along a line.
+/// Vectors that span no cell.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("the cell vectors depend on one another: they span {volume:e} of the product of their lengths")]
-pub struct DependentVectors {
-    /// What they span, as a part of the product of their lengths.
-    pub volume: f64,
+pub enum DependentVectors {
+    /// One has no length.
+    #[error("cell vector {} is zero", .number + 1)]
+    Zero {
+        /// Its number, from zero.
+        number: usize,
+    },
+    /// They lie in a plane, or along a line.
+    #[error("the cell vectors depend on one another: they span {volume:e} of the product of their lengths")]
+    Flat {
+        /// What they span, as a part of the product of their lengths.
+        volume: f64,
+    },
 }
 
 /// Vectors that span less than this part of the product of their lengths are taken to depend on one another.
@@ -46,9 +55,13 @@ impl Lattice {
     pub fn new(vectors: Vec<Vec3>) -> Result<Self, DependentVectors> {
         assert!(vectors.len() <= 3, "space has three dimensions");
         let lattice = Self { vectors };
-        let product: f64 = lattice.vectors.iter().map(Vec3::norm).product();
-        let volume = lattice.volume() / product;
-        if lattice.vectors.is_empty() || volume > LEAST_SPAN { Ok(lattice) } else { Err(DependentVectors { volume }) }
+        if let Some(number) = lattice.vectors.iter().position(|vector| *vector == Vec3::zeros()) {
+            return Err(DependentVectors::Zero { number });
+        }
+        // Of unit vectors, so that no product leaves the range of numbers.
+        let units = Self { vectors: lattice.vectors.iter().map(|vector| vector / vector.norm()).collect() };
+        let volume = units.volume();
+        if volume > LEAST_SPAN { Ok(lattice) } else { Err(DependentVectors::Flat { volume }) }
     }
 
     /// a_a [m].
@@ -98,6 +111,12 @@ impl Lattice {
             [a, b, c] => Mat3::from_columns(&[a, b, c]),
             _ => Mat3::identity(),
         }
+    }
+
+    /// The orthogonal projector onto the space that the vectors span.
+    pub fn projector(&self) -> Mat3 {
+        let dual = self.reciprocal().into_iter().zip(&self.vectors);
+        dual.map(|(reciprocal, vector)| vector * reciprocal.transpose() / std::f64::consts::TAU).sum()
     }
 
     /// The lattice under a homogeneous deformation F̄ of its vectors.

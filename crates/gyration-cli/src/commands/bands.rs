@@ -6,7 +6,7 @@ mod special;
 use super::plot;
 use crate::arguments::Bands;
 use crate::error::{CliError, code};
-use crate::input::ready;
+use crate::input::at_rest;
 use crate::output;
 use crate::waiting::waiting;
 use gyration_record::write_file;
@@ -20,10 +20,13 @@ use std::path::PathBuf;
 /// Prints the bands of a lattice along a path, all wave vectors of frequencies, or what becomes of it under strain.
 pub fn execute(arguments: &Bands) -> Result<u8, CliError> {
     let name = &arguments.scene.scene;
-    let scene = waiting(format!("opening {name}"), true, || ready(&arguments.scene))?;
+    let scene = waiting(format!("opening {name}"), true, || at_rest(&arguments.scene))?;
     let looking = format!("looking for the waves of {name}");
     let text = if let Some(along) = &arguments.along {
         let path = strains(along)?;
+        if arguments.steps.get() == 1 {
+            return Err(refused("a path of strains has two values at least: write --steps 2 or more".to_owned()));
+        }
         let mesh = arguments.mesh.map(std::num::NonZero::get);
         let found = waiting(looking, true, || StrainSurvey::of(&scene, &path, arguments.steps.get(), mesh));
         let found = found.map_err(refused)?;
@@ -72,12 +75,16 @@ fn strains(text: &str) -> Result<StrainPath, CliError> {
     StrainPath::parse(text).map_err(|error| refused(error.to_string()))
 }
 
+fn strain(text: &str) -> Result<StrainPath, CliError> {
+    StrainPath::parse_value(text).map_err(|error| refused(error.to_string()))
+}
+
 fn options(arguments: &Bands) -> Result<BandOptions, CliError> {
     Ok(BandOptions {
         points: arguments.points.get(),
         mesh: arguments.mesh.map(std::num::NonZero::get),
         shapes: arguments.shapes,
-        strain: arguments.strain.as_deref().map(strains).transpose()?,
+        strain: arguments.strain.as_deref().map(strain).transpose()?,
     })
 }
 

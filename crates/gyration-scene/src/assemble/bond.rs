@@ -88,14 +88,18 @@ impl Written<'_> {
             reporter.note(key, message, "keep one of `law`, `potential` and `stiffness`, or `damping` alone");
             return None;
         }
+        let has_axes = value.stiffness.is_some() || matches!(value.damping, Some(BondDamping::Matrix(_)));
+        if value.axes.is_some() && !has_axes {
+            let message = "`axes` are those of `stiffness` and of a 6×6 `damping`, and this bond has neither";
+            reporter.note(&key.key("axes"), message, "leave them out");
+            return None;
+        }
         let shift = cells.map_or_else(Vec3::zeros, |cells| cells.lattice.place(cell));
         let placements = self.assembled.map(|body| placement(&body.start));
         let apart = placements[1].place(&points[1]) + shift - placements[0].place(&points[0]);
-        let axes = match (&value.stiffness, &value.damping) {
-            (Some(_), _) | (_, Some(BondDamping::Matrix(_))) => {
-                Some(self.axes(&placements, &apart, &shift, reporter)?)
-            }
-            _ => None,
+        let axes = match has_axes {
+            true => Some(self.axes(&placements, &apart, &shift, reporter)?),
+            false => None,
         };
         let law = self.law(axes.as_ref(), context, reporter)?;
         let damping = self.damping(axes.as_ref(), reporter)?;

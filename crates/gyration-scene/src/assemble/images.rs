@@ -2,7 +2,7 @@
 
 use super::body::AssembledBody;
 use super::lattice::Cells;
-use super::pair::overlapping;
+use super::pair::overlap_in_words;
 use super::start::placement;
 use crate::check::Reporter;
 use crate::key::Key;
@@ -110,7 +110,14 @@ impl<'a> Extents<'a> {
         let overlap = parts.map(|[i, j]| Overlap::check([solids[0].part(i), solids[1].part(j)], [&first, &second]));
         // Bodies of one cell are looked at without a lattice too.
         if let Some(overlap) = overlap.filter_map(Result::err).next().filter(|_| cell != HERE) {
-            overlapping([one, other], &overlap, &key.key("between"), reporter);
+            let (message, [by, way]) = overlap_in_words(&overlap);
+            let [one, other] = [one, other].map(|assembled| &assembled.name);
+            let message = format!("\"{one}\" and the image of \"{other}\" in the cell {cell:?} {message}");
+            let fix = match one == other {
+                true => format!("lengthen the cell vectors, or make \"{one}\" smaller"),
+                false => format!("move \"{one}\" {by} {way}, or lengthen the cell vectors"),
+            };
+            reporter.note(&key.key("between"), message, fix);
         }
     }
 }

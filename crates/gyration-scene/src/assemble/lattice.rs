@@ -15,6 +15,9 @@ use gyration::neighbours::PairRule;
 use gyration::support::Support;
 use gyration::tensor::{Mat3, Vec3};
 
+/// Components below this part of the largest are rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// The most cells of a run.
 const MOST_CELLS: u64 = 1_000_000;
 
@@ -44,7 +47,7 @@ pub enum CellLoad {
 }
 
 /// The load under which cell vectors rest; notes one that has no meaning.
-fn load(written: &file::Lattice, key: &Key, reporter: &mut Reporter<'_>) -> Option<CellLoad> {
+fn load(written: &file::Lattice, lattice: &Lattice, key: &Key, reporter: &mut Reporter<'_>) -> Option<CellLoad> {
     let rests = written.relax.contains(&Relaxed::Cell);
     let given = [("stress", written.stress.is_some()), ("pressure", written.pressure.is_some())];
     if let (Some((name, _)), false) = (given.into_iter().find(|(_, is_given)| *is_given), rests) {
@@ -63,6 +66,11 @@ fn load(written: &file::Lattice, key: &Key, reporter: &mut Reporter<'_>) -> Opti
             if stress != stress.transpose() {
                 let message = "the stress is not symmetric, and the cell does not turn under it";
                 reporter.note(&key.key("stress"), message, "write the same across the diagonal");
+            }
+            let within = lattice.projector();
+            if (within * stress * within - stress).amax() > ROUNDING * stress.amax() {
+                let message = "the stress has components across the cell vectors, along which there is no cell";
+                reporter.note(&key.key("stress"), message, "write one in the space that they span");
             }
             rests.then_some(CellLoad::Stress(stress))
         }
@@ -108,7 +116,7 @@ impl Cells {
             return None;
         }
         let relaxes = !written.relax.is_empty();
-        let load = load(written, &key, reporter);
+        let load = load(written, &lattice, &key, reporter);
         let directions: [Option<u32>; 3] =
             std::array::from_fn(|a| (a < count && !periodic[a] && repeat[a] > 1).then_some(repeat[a]));
         let absorb = written.absorb.as_ref();

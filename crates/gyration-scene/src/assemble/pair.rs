@@ -152,16 +152,21 @@ pub(super) fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Repo
 }
 
 /// Notes two bodies that overlap.
-pub(super) fn overlapping(both: [&AssembledBody; 2], overlap: &Overlap, key: &Key, reporter: &mut Reporter<'_>) {
+fn overlapping(both: [&AssembledBody; 2], overlap: &Overlap, key: &Key, reporter: &mut Reporter<'_>) {
     let [one, other] = both.map(|assembled| &assembled.name);
+    let (message, [by, way]) = overlap_in_words(overlap);
+    reporter.note(key, format!("\"{one}\" and \"{other}\" {message}"), format!("move \"{one}\" {by} {way}"));
+}
+
+/// That two bodies overlap, then by how much and along which direction the first has to move.
+pub(super) fn overlap_in_words(overlap: &Overlap) -> (String, [String; 2]) {
     let [x, y, z] = overlap.normal.into();
     let way = format!("along [{x:.6}, {y:.6}, {z:.6}]");
-    let (message, by) = match overlap.touches() {
-        true => ("touch at the start, and no force holds at a gap of 0".to_owned(), "a little".to_owned()),
+    match overlap.touches() {
+        true => ("touch at the start, and no force holds at a gap of 0".to_owned(), ["a little".to_owned(), way]),
         false => {
             let depth = format!("{:.6e} m", overlap.depth);
-            (format!("reach each other at the start, by {depth}"), format!("by more than {depth}"))
+            (format!("reach each other at the start, by {depth}"), [format!("by more than {depth}"), way])
         }
-    };
-    reporter.note(key, format!("\"{one}\" and \"{other}\" {message}"), format!("move \"{one}\" {by} {way}"));
+    }
 }

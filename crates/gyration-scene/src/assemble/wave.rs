@@ -78,6 +78,12 @@ pub(super) fn waves(written: &file::Lattice, cells: &Cells, reporter: &mut Repor
         let wave = single_or_random(wave, &key, reporter)?;
         if let StartingWave::Single { kappa, packet, .. } = &wave {
             fits(kappa, packet.is_some(), cells, &key.key("kappa"), reporter)?;
+            let count = cells.lattice.vectors().len();
+            let beyond = packet.and_then(|packet| (count..3).find(|a| packet.at[*a] != 0.0));
+            if let Some(a) = beyond {
+                reporter.note(&key.key("at").index(a), format!("the lattice has {count} cell vectors"), "write 0");
+                return None;
+            }
             (0..3).filter(|a| kappa[*a] != 0.0).for_each(|a| endless[a] = true);
         }
         waves.push(wave);

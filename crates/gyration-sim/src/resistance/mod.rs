@@ -32,7 +32,18 @@ use std::sync::Arc;
 /// # Errors
 /// As of both.
 pub fn open(path_or_name: &str, overrides: &[String]) -> Result<Scene, LoadError> {
-    let scene = Scene::open(path_or_name, overrides)?;
+    within_wall_time(Scene::open(path_or_name, overrides)?)
+}
+
+/// Opens a scene as [`open`] does, but at rest: the waves with which its run starts are not looked for.
+///
+/// # Errors
+/// As of [`open`].
+pub fn open_at_rest(path_or_name: &str, overrides: &[String]) -> Result<Scene, LoadError> {
+    within_wall_time(Scene::open(path_or_name, overrides)?.without_waves())
+}
+
+fn within_wall_time(scene: Scene) -> Result<Scene, LoadError> {
     Ok(Interruption::in_force().after(scene.built().plan.wall_time()).within(|| complete(scene))?)
 }
 
