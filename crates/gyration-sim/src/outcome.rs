@@ -290,6 +290,17 @@ impl Stop {
                 format!("nothing resists the motion of body {body:?}, which has no inertia"),
                 "Give it `inclusion = { inertia = true }`, or look for sizes and viscosities out of all proportion.".to_string(),
             ),
+            Quantity::Balance => (
+                Reason::Unresisted,
+                format!(
+                    "no velocities are found at which body {body:?}, which has no inertia, is in balance: the last \
+                     step towards them is {:.1e} of them",
+                    left.value
+                ),
+                "Its friction is far beyond its bound where hardly anything else resists: leave out `mu`, or give it \
+                 `inclusion = { inertia = true }`."
+                    .to_string(),
+            ),
             Quantity::Slenderness => (
                 Reason::TooSlender,
                 format!(

@@ -102,6 +102,19 @@ proptest! {
     }
 
     #[test]
+    fn jacobian_and_power_under_a_bound_on_friction_are_those_of_the_rates(
+        numbers in numbers(24), exponents in exponents(), mu in 0.01..1.0_f64,
+    ) {
+        let models = MEASURES.map(|measure| bounded(model(exponents, measure), mu));
+        let without_inertia = immersed(models[0].clone(), false);
+        for model in models.into_iter().chain([without_inertia]) {
+            let state = state(&model, &numbers);
+            assert_jacobian_is_the_derivative(&model, &state);
+            assert_power_is_the_rate_of_energy(&model, &state);
+        }
+    }
+
+    #[test]
     fn power_of_works_is_the_rate_of_energy(numbers in numbers(24), exponents in exponents()) {
         for measure in MEASURES {
             let model = model(exponents, measure);

@@ -198,8 +198,8 @@ fn blocks_of_meeting_bodies_without_inertia_are_derivatives_of_the_rates() {
         Arc::make_mut(body).inclusion.as_mut().unwrap().inertia = true;
     }
     let [repulsion, damping, friction, _] = laws([5.0, 4.0, 3.0, 2.0]).try_into().unwrap();
-    for viscous in [false, true] {
-        let laws = if viscous { vec![repulsion, damping, friction] } else { vec![repulsion] };
+    let bound = bounded_law(friction, 0.2);
+    for laws in [vec![repulsion], vec![repulsion, damping, friction], vec![repulsion, damping, bound]] {
         let laws = Arc::new(PairLaws::new(AreaMeasure::ReferenceArea, laws).unwrap());
         let all: Arc<[usize]> = (0..count).collect();
         let rule = PairRule { bodies: [all.clone(), all], laws, reach: None };

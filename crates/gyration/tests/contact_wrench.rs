@@ -63,12 +63,12 @@ impl Scene {
     }
 }
 
-fn law_set(exponents: [f64; 3]) -> LawSet {
+fn law_set(exponents: [f64; 3], mu: Option<f64>) -> LawSet {
     let [repulsion, damping, friction] = exponents;
     let laws = vec![
         ContactLaw::Repulsion(Repulsion { alpha: 2.0, exponent: repulsion, reference_gap: 0.3 }),
         ContactLaw::Damping(Damping { beta: 0.7, exponent: damping, reference_gap: 0.4 }),
-        ContactLaw::Friction(Friction { beta: 0.9, exponent: friction, reference_gap: 0.2 }),
+        ContactLaw::Friction(Friction { beta: 0.9, exponent: friction, reference_gap: 0.2, mu }),
         ContactLaw::Adhesion(Adhesion {
             beta: 1.3,
             attractive_exponent: 2.0,
@@ -85,12 +85,12 @@ fn vector() -> impl Strategy<Value = Vec3> {
 
 fn scene() -> impl Strategy<Value = Scene> {
     let exponents = prop::array::uniform3(prop_oneof![1.0..7.0, (1..7).prop_map(f64::from)]);
-    (exponents, prop::array::uniform4(vector()), any::<bool>()).prop_map(
-        |(exponents, [turn, n, velocity, spin], ball)| {
+    (exponents, prop::array::uniform4(vector()), any::<bool>(), prop::option::of(0.01..1.0)).prop_map(
+        |(exponents, [turn, n, velocity, spin], ball, mu)| {
             let surface = if ball { Surface::sphere(0.5) } else { Surface::cuboid(&Vec3::new(0.6, 0.8, 0.4)) };
             let normal = (n + Vec3::new(0.0, 0.0, 2.0)).normalize();
             let rotation = *nalgebra::Rotation3::new(3.0 * turn).matrix();
-            Scene { laws: law_set(exponents), surface, rotation, normal, height: 0.75, velocity, spin }
+            Scene { laws: law_set(exponents, mu), surface, rotation, normal, height: 0.75, velocity, spin }
         },
     )
 }
@@ -144,7 +144,7 @@ proptest! {
     fn friction_of_any_strength_leaves_the_damping_alone(scene in scene(), strength in 1e15..1e25_f64) {
         // Next to a support the steeper law exceeds the other by more than the digits of a number.
         let damping = ContactLaw::Damping(Damping { beta: 1.0, exponent: 3.0, reference_gap: 1.0 });
-        let friction = ContactLaw::Friction(Friction { beta: strength, exponent: 3.0, reference_gap: 1.0 });
+        let friction = ContactLaw::Friction(Friction { beta: strength, exponent: 3.0, reference_gap: 1.0, mu: None });
         let with = |laws: Vec<ContactLaw>| {
             let laws = LawSet::new(AreaMeasure::default(), laws);
             let level = Scene { laws, surface: Surface::sphere(0.5), normal: Vec3::z(), rotation: Mat3::identity(), ..scene };

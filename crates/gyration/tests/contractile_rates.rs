@@ -100,6 +100,20 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 2, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
+    fn jacobian_and_power_under_a_bound_on_friction_are_those_of_the_rates(
+        numbers in numbers(33), exponents in exponents(), mu in 0.01..1.0_f64,
+    ) {
+        for incompressible in [false, true] {
+            let model = bounded(model(exponents, incompressible, true), mu);
+            for model in [model.clone(), immersed(model, false)] {
+                let state = state(&model, &numbers);
+                assert_jacobian_is_the_derivative(&model, &state);
+                assert_power_is_the_rate_of_energy(&model, &state);
+            }
+        }
+    }
+
+    #[test]
     fn jacobian_and_power_of_inclusions_are_those_of_their_rates(numbers in numbers(33), exponents in exponents()) {
         for (incompressible, viscous) in [(false, true), (true, false), (true, true)] {
             for inertia in [true, false] {

@@ -1,8 +1,8 @@
 //! Relations that the rates of rigid bodies obey, whatever the scene: exact Jacobian, power balance, dissipation.
 
 use crate::moving::{
-    self, Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, attached, controlled,
-    evaluate, immersed, shapes, supports, with_history, with_own_forces,
+    self, Variant, assert_jacobian_is_the_derivative, assert_power_is_the_rate_of_energy, attached, bounded,
+    controlled, evaluate, immersed, shapes, supports, with_history, with_own_forces,
 };
 use gyration::balance::{kinetic_energy, observe};
 use gyration::body::{Body, BodyKind, RigidInertia};
@@ -100,6 +100,18 @@ proptest! {
     }
 
     #[test]
+    fn jacobian_and_power_under_a_bound_on_friction_are_those_of_the_rates(
+        (numbers, exponents) in strategy(), mu in 0.01..1.0_f64,
+    ) {
+        let model = bounded(model(exponents), mu);
+        for model in [model.clone(), immersed(model, false)] {
+            let state = state(&model, &numbers);
+            assert_jacobian_is_the_derivative(&model, &state);
+            assert_power_is_the_rate_of_energy(&model, &state);
+        }
+    }
+
+    #[test]
     fn power_of_works_is_the_rate_of_energy((numbers, exponents) in strategy()) {
         let model = model(exponents);
         let state = state(&model, &numbers);
@@ -108,12 +120,13 @@ proptest! {
 
     #[test]
     fn damping_friction_and_dashpots_dissipate((numbers, exponents) in strategy()) {
-        let model = model(exponents);
-        let state = state(&model, &numbers);
-        let (_, powers) = evaluate(&model, state.time, &state.bodies);
-        for (work, power) in model.works().iter().zip(powers) {
-            if *work != Work::Support {
-                prop_assert!(power <= 0.0, "{} does {power} W", work.name());
+        for model in [model(exponents), bounded(model(exponents), 0.2)] {
+            let state = state(&model, &numbers);
+            let (_, powers) = evaluate(&model, state.time, &state.bodies);
+            for (work, power) in model.works().iter().zip(powers) {
+                if *work != Work::Support {
+                    prop_assert!(power <= 0.0, "{} does {power} W", work.name());
+                }
             }
         }
     }

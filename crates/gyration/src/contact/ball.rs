@@ -10,11 +10,15 @@
 //!
 //!   ∂f/∂θ = −T₁ (1 − n⊗n) R [m]× [Ω]×,   ∂τ/∂θ = −(T₁ [w]× + (k_m − k) ((m·Ω) 1 + m⊗Ω) [m]×)
 //!
-//! Derivatives by the height are the same formulas with the sums of ν + 1.
+//! Derivatives by the height are the same formulas with the sums of ν + 1. Friction alone takes 2R = T₀v² + 2T₁
+//! v·R(Ω×m) + T_c |Ω×m|² + 2T_⊥ (m·Ω)², from which its bound is:
+//!
+//!   ∂(2R)/∂θ = 2 (T₁ Ω×w + (2T_⊥ − T_c) (m·Ω) Ω×m)
 
-use super::law_set::{ContactScratch, LawSet};
+use super::law_set::{ContactScratch, LawSet, PlannedTerm};
+use super::sums::push;
 use super::wrench::{ContactWrench, RigidLoads, RigidMotion};
-use super::{Action, Term};
+use super::{Action, Bound, Sliding, Term};
 use crate::load::{Wrench, WrenchSlope};
 use crate::surface::{AxialMoments, GapClosed, GapField, Surface};
 use crate::tensor::{Mat3, Vec3, cross_matrix};
@@ -49,6 +53,21 @@ impl AxialSums {
         self.first += coefficient * first;
         self.along += coefficient * along;
         self.across += coefficient * across;
+    }
+
+    /// All of it times a factor.
+    fn scale(&mut self, factor: f64) {
+        *self = Self::default().plus(factor, self);
+    }
+
+    /// These sums and others times a factor.
+    fn plus(&self, factor: f64, other: &Self) -> Self {
+        Self {
+            zeroth: self.zeroth + factor * other.zeroth,
+            first: self.first + factor * other.first,
+            along: self.along + factor * other.along,
+            across: self.across + factor * other.across,
+        }
     }
 }
 
@@ -93,6 +112,40 @@ impl<'a> Rolling<'a> {
             force: (central.zeroth - normal.zeroth * approach) * n - self.across(&drag),
             torque: -(tangential.first * self.dragged + k * spin + (k_m - k) * self.drilling * m),
         }
+    }
+
+    /// 2R [W] of these sums of friction.
+    fn lost(&self, friction: &AxialSums) -> f64 {
+        // |Ω − (m·Ω) m|² = |Ω×m|².
+        let (drilling, tilting) = (self.drilling.powi(2), self.swing.norm_squared());
+        let sliding = self.motion.sliding.norm_squared() * friction.zeroth
+            + 2.0 * self.motion.sliding.dot(&self.swing) * friction.first
+            + friction.along * tilting;
+        sliding + 2.0 * friction.across * drilling
+    }
+
+    /// ∂(2R)/∂θ.
+    fn loss_by_turn(&self, friction: &AxialSums) -> Vec3 {
+        let RigidMotion { direction: m, spin, .. } = self.motion;
+        let drilled = (2.0 * friction.across - friction.along) * self.drilling;
+        2.0 * (friction.first * spin.cross(&self.dragged) + drilled * spin.cross(m))
+    }
+
+    /// The bound of friction with a coefficient μ, from its sums and N [N].
+    fn bound(&self, mu: f64, friction: &AxialSums, push: f64) -> Bound {
+        Bound::new(mu, Sliding { lost: self.lost(friction), resistance: friction.zeroth, push })
+    }
+
+    /// Puts a bound on the friction among sums and their derivatives by the height, given N and its derivative; what is
+    /// returned has the sums without it.
+    fn bind(&self, mu: f64, [values, slopes]: [&mut ByAction; 2], [push, by_height]: [f64; 2]) -> (Bound, AxialSums) {
+        let (friction, slope) = (&mut values[Action::Tangential as usize], &mut slopes[Action::Tangential as usize]);
+        let (bound, free) = (self.bound(mu, friction, push), *friction);
+        let change = bound.change(&Sliding { lost: self.lost(slope), resistance: slope.zeroth, push: by_height });
+        slope.scale(bound.factor());
+        *slope = slope.plus(change, &free);
+        friction.scale(bound.factor());
+        (bound, free)
     }
 
     /// ∂f/∂θ and ∂τ/∂θ.
@@ -140,18 +193,20 @@ impl RigidLoads {
             return Some(Err(closed));
         }
         let terms = laws.terms().iter();
-        let sums = by_action(terms.map(|planned| (&planned.term, planned.term.coefficient, &moments[planned.value])));
+        let mut sums =
+            by_action(terms.map(|planned| (&planned.term, planned.term.coefficient, &moments[planned.value])));
         let rolling = Rolling::new(motion);
+        if let Some(mu) = laws.mu() {
+            let push = push(laws, |planned| planned.term.coefficient * moments[planned.value].zeroth);
+            let friction = &mut sums[Action::Tangential as usize];
+            friction.scale(rolling.bound(mu, friction, push).factor());
+        }
         let [_, normal, tangential] = &sums;
-        // |Ω − (m·Ω) m|² = |Ω×m|².
-        let (drilling, tilting) = (rolling.drilling.powi(2), rolling.swing.norm_squared());
-        let sliding = motion.sliding.norm_squared() * tangential.zeroth
-            + 2.0 * motion.sliding.dot(&rolling.swing) * tangential.first
-            + tangential.along * tilting;
+        let tilting = rolling.swing.norm_squared();
         Some(Ok(Self {
             wrench: rolling.wrench(&sums),
             damping_power: -(motion.approach.powi(2) * normal.zeroth + normal.across * tilting),
-            friction_power: -(sliding + 2.0 * tangential.across * drilling),
+            friction_power: -rolling.lost(tangential),
         }))
     }
 }
@@ -179,98 +234,36 @@ impl ContactWrench {
             let term = &planned.term;
             (term, -term.exponent * term.coefficient, &moments[planned.derivative])
         });
-        let (values, slopes) = (by_action(values), by_action(slopes));
+        let (mut values, mut slopes) = (by_action(values), by_action(slopes));
         let rolling = Rolling::new(motion);
+        let bounded = laws.mu().map(|mu| {
+            let of_term = |planned: &PlannedTerm| {
+                let term = &planned.term;
+                let slope = -term.exponent * term.coefficient * moments[planned.derivative].zeroth;
+                (term.coefficient * moments[planned.value_with_derivative].zeroth, slope)
+            };
+            rolling.bind(
+                mu,
+                [&mut values, &mut slopes],
+                [push(laws, |planned| of_term(planned).0), push(laws, |planned| of_term(planned).1)],
+            )
+        });
         let (by_velocity, by_spin) = rolling.by_motion(&values);
-        Some(Ok(Self {
+        let mut found = Self {
             wrench: rolling.wrench(&values),
             by_height: rolling.wrench(&slopes),
             by_turn: rolling.by_turn(&values),
             by_velocity,
             by_spin,
-        }))
+        };
+        if let Some((bound, free)) = bounded {
+            let mut only = ByAction::default();
+            only[Action::Tangential as usize] = free;
+            found.add_bound(&bound, &rolling.wrench(&only), &rolling.loss_by_turn(&free));
+        }
+        Some(Ok(found))
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::contact::{Adhesion, AreaMeasure, ContactLaw, Damping, Friction, RelativeMotion, Repulsion};
-
-    const RADIUS: f64 = 0.3;
-
-    fn laws(measure: AreaMeasure, exponent: f64) -> LawSet {
-        let reference_gap = 0.1;
-        let laws = vec![
-            ContactLaw::Repulsion(Repulsion { alpha: 2.0, exponent, reference_gap }),
-            ContactLaw::Damping(Damping { beta: 0.7, exponent, reference_gap }),
-            ContactLaw::Friction(Friction { beta: 0.9, exponent: exponent - 1.0, reference_gap }),
-            ContactLaw::Adhesion(Adhesion {
-                beta: 1.3,
-                attractive_exponent: exponent - 1.0,
-                repulsive_exponent: exponent,
-                reference_gap,
-            }),
-        ];
-        LawSet::new(measure, laws)
-    }
-
-    /// |a − b| as a part of |b| and of what the general method sums to it.
-    fn differ(a: &Mat3, b: &Mat3, summed: f64) -> f64 {
-        (a - b).norm() / (b.norm() + summed)
-    }
-
-    /// f and τ as a matrix.
-    fn columns(wrench: &Wrench) -> [Mat3; 2] {
-        [wrench.force, wrench.torque].map(|vector| Mat3::from_columns(&[vector, Vec3::zeros(), Vec3::zeros()]))
-    }
-
-    /// The general method has a torque and derivatives that are differences of central and normal moments: it knows
-    /// them to the rounding of R f, R ∂f/∂g₀ and R ∂f/∂w₀.
-    #[test]
-    fn ball_is_what_its_surface_is() {
-        let surface = Surface::sphere(RADIUS);
-        let rotation = *nalgebra::Rotation3::new(Vec3::new(0.4, -1.1, 0.7)).matrix();
-        let normal = Vec3::new(0.3, -0.5, 2.0).normalize();
-        let spin = Vec3::new(1.0, -0.8, 0.6);
-        let (velocity, gradient_rate) = (Vec3::new(0.9, -0.4, 0.5), rotation * cross_matrix(&spin));
-        let motion = RigidMotion::new(&RelativeMotion { normal, velocity, gradient_rate }, &rotation, spin);
-        let (mut worst, mut scratch): (f64, _) = (0.0, ContactScratch::default());
-        for measure in [AreaMeasure::DeformedArea, AreaMeasure::ReferenceArea, AreaMeasure::DeformedAreaPotential] {
-            for (exponent, power) in [2.5, 6.0, 12.0].into_iter().flat_map(|nu| (-9..=1).map(move |power| (nu, power)))
-            {
-                let field = surface.field_at(RADIUS * 10.0_f64.powi(power), motion.direction);
-                let laws = laws(measure, exponent);
-                let of_ball = RigidLoads::of_ball(&laws, &surface, &field, &motion, &mut scratch).unwrap().unwrap();
-                let of_any = RigidLoads::of_surface(&laws, &surface, &field, &motion, &mut scratch).unwrap();
-                let ball = ContactWrench::of_ball(&laws, &surface, &field, &motion, &mut scratch).unwrap().unwrap();
-                let any = ContactWrench::of_surface(&laws, &surface, &field, &motion, &mut scratch).unwrap();
-                let (force, stiffness) = (any.wrench.force.norm(), any.by_height.force.norm());
-                let mut compare = |one: &Mat3, other: &Mat3, summed: f64| {
-                    worst = worst.max(differ(one, other, summed));
-                };
-                for (one, other) in [(&of_ball.wrench, &of_any.wrench), (&ball.wrench, &any.wrench)] {
-                    let ([push, twist], [any_push, any_twist]) = (columns(one), columns(other));
-                    compare(&push, &any_push, 0.0);
-                    compare(&twist, &any_twist, RADIUS * force);
-                }
-                let ([push, twist], [any_push, any_twist]) = (columns(&ball.by_height), columns(&any.by_height));
-                compare(&push, &any_push, 0.0);
-                compare(&twist, &any_twist, RADIUS * stiffness);
-                compare(&ball.by_turn.force, &any.by_turn.force, RADIUS * stiffness);
-                compare(&ball.by_turn.torque, &any.by_turn.torque, RADIUS * RADIUS * stiffness);
-                let resistance = any.by_velocity.force.norm();
-                compare(&ball.by_velocity.force, &any.by_velocity.force, 0.0);
-                compare(&ball.by_velocity.torque, &any.by_velocity.torque, RADIUS * resistance);
-                compare(&ball.by_spin.force, &any.by_spin.force, RADIUS * resistance);
-                compare(&ball.by_spin.torque, &any.by_spin.torque, RADIUS * RADIUS * resistance);
-                let powers = |loads: &RigidLoads| {
-                    Mat3::from_diagonal(&Vec3::new(loads.damping_power, loads.friction_power, 0.0))
-                };
-                compare(&powers(&of_ball), &powers(&of_any), 0.0);
-            }
-        }
-        println!("a ball and its surface differ by {worst:.1e}");
-        assert!(worst < 1e-14);
-    }
-}
+mod tests;

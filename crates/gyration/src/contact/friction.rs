@@ -1,4 +1,4 @@
-//! Friction: resists the tangential part of the relative velocity; linear in it, without a threshold.
+//! Friction: resists the tangential part of the relative velocity; linear in it, unless it has a bound.
 
 use super::{Action, LawKind, Term};
 
@@ -15,6 +15,8 @@ pub struct Friction {
     pub exponent: f64,
     /// d₀ [m], the gap at which the power is one.
     pub reference_gap: f64,
+    /// μ, Coulomb's bound on the friction of the contact (`bound`); without it friction is viscous.
+    pub mu: Option<f64>,
 }
 
 impl Friction {

@@ -28,6 +28,7 @@ pub struct LawSet {
     laws: Vec<ContactLaw>,
     terms: Vec<PlannedTerm>,
     acts: [bool; Action::COUNT],
+    mu: Option<f64>,
     values: MomentPlan,
     derivatives: MomentPlan,
     potentials: MomentPlan,
@@ -122,7 +123,8 @@ impl LawSet {
         let (requests, potential_terms) = potential::plan(laws.iter().flat_map(ContactLaw::terms).flatten());
         let potentials = MomentPlan::new(requests);
         let acts = Action::ALL.map(|action| terms.iter().any(|planned| planned.term.action == action));
-        Self { measure, laws, terms, acts, values, derivatives, potentials, potential_terms }
+        let mu = laws.iter().find_map(ContactLaw::mu);
+        Self { measure, laws, terms, acts, mu, values, derivatives, potentials, potential_terms }
     }
 
     /// The laws.
@@ -137,6 +139,16 @@ impl LawSet {
     /// Whether any of the terms acts like this.
     pub(super) fn acts(&self, action: Action) -> bool {
         self.acts[action as usize]
+    }
+
+    /// μ, where the friction has a bound: a contact has one friction.
+    pub fn mu(&self) -> Option<f64> {
+        self.mu
+    }
+
+    /// Whether the loads are linear in the velocities.
+    pub fn is_linear(&self) -> bool {
+        self.mu.is_none()
     }
 
     /// The moments that the loads need.
@@ -171,7 +183,7 @@ mod tests {
         let laws = vec![
             ContactLaw::Repulsion(Repulsion { alpha: 1.0, exponent: 6.0, reference_gap: 1.0 }),
             ContactLaw::Damping(Damping { beta: 1.0, exponent: 5.0, reference_gap: 1.0 }),
-            ContactLaw::Friction(Friction { beta: 1.0, exponent: 5.0, reference_gap: 1.0 }),
+            ContactLaw::Friction(Friction { beta: 1.0, exponent: 5.0, reference_gap: 1.0, mu: None }),
         ];
         let laws = LawSet::new(AreaMeasure::default(), laws);
         let orders = |requests: &[MomentRequest]| {

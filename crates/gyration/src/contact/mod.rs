@@ -7,12 +7,15 @@
 //! | friction  | −β (d/d₀)^−ν (I − n⊗n) w              | β [Pa s/m]         |
 //! | adhesion  | −β ((d/d₀)^−ν_a − (d/d₀)^−ν_r) n      | β [Pa], ν_r > ν_a  |
 //!
+//! The friction of a contact may have a bound, that of Coulomb (`bound`), which depends on all of the contact.
+//!
 //! n is the support's unit normal, w the velocity relative to the support. A law sees a gap and a velocity, never a
 //! mesh, a body or a time. Each is a sum of [`Term`]s, one power of the gap each, which is all that `resultant` needs
 //! to integrate it over a surface. Source: Tatone, *Soft and rigid impact*.
 
 mod adhesion;
 mod ball;
+mod bound;
 mod damping;
 mod friction;
 mod law_set;
@@ -27,6 +30,7 @@ mod tension;
 mod wrench;
 
 pub use adhesion::Adhesion;
+pub(crate) use bound::{Bound, Sliding};
 pub use damping::Damping;
 pub use friction::Friction;
 pub use law_set::{Contact, ContactScratch, LawSet};
@@ -148,6 +152,14 @@ impl ContactLaw {
             Self::Damping(law) => law.exponent,
             Self::Friction(law) => law.exponent,
             Self::Adhesion(law) => law.repulsive_exponent,
+        }
+    }
+
+    /// μ of a friction that has a bound.
+    pub fn mu(&self) -> Option<f64> {
+        match self {
+            Self::Friction(law) => law.mu,
+            Self::Repulsion(_) | Self::Damping(_) | Self::Adhesion(_) => None,
         }
     }
 

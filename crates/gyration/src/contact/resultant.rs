@@ -66,7 +66,9 @@ impl ContactLoads {
         let moments = scratch.take(plan.requests().len());
         meeting.moments(laws, plan, moments)?;
         let split = SplitMotion::new(&meeting.motion);
-        let mut this = split.loads(laws, &Sums::by_action(laws, moments));
+        let mut sums = Sums::by_action(laws, moments);
+        Sums::bind(&mut sums, laws, moments, |friction| split.lost(friction));
+        let mut this = split.loads(laws, &sums);
         for planned in laws.terms().iter().filter(|planned| planned.term.action == Action::Central) {
             let power = split.central_power(&moments[planned.value]);
             this.powers[planned.term.kind as usize] += planned.term.coefficient * power;
@@ -93,7 +95,7 @@ impl ContactLoads {
 }
 
 /// The relative motion split into what is along the normal, n·w = c₀ + c·X, and the rest, w − (n·w) n = v + V X.
-struct SplitMotion<'a> {
+pub(super) struct SplitMotion<'a> {
     motion: &'a RelativeMotion,
     /// c₀ [m/s].
     speed: f64,
@@ -103,7 +105,7 @@ struct SplitMotion<'a> {
 
 impl<'a> SplitMotion<'a> {
     #[inline]
-    fn new(motion: &'a RelativeMotion) -> Self {
+    pub fn new(motion: &'a RelativeMotion) -> Self {
         let RelativeMotion { normal, velocity, gradient_rate } = motion;
         Self { motion, speed: normal.dot(velocity), slope: gradient_rate.tr_mul(normal) }
     }
@@ -112,6 +114,14 @@ impl<'a> SplitMotion<'a> {
     #[inline]
     fn central_power(&self, moments: &Moments) -> f64 {
         self.speed * moments.zeroth + self.slope.dot(&moments.first)
+    }
+
+    /// What friction takes [W], ∫κ |v + V X|² dA.
+    pub fn lost(&self, friction: &Sums) -> f64 {
+        let Self { motion: RelativeMotion { normal, velocity, gradient_rate }, speed, slope } = self;
+        let (across, rate) = (velocity - *speed * normal, gradient_rate - normal * slope.transpose());
+        let swept = across * friction.first.transpose() + rate * friction.second;
+        across.dot(&(across * friction.zeroth + rate * friction.first)) + swept.dot(&rate)
     }
 
     /// The loads of these sums, and the powers of the viscous laws.

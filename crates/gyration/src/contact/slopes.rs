@@ -6,13 +6,15 @@
 //!
 //!   ∂Q/∂q = (∂Q by gap) ⊗ n + …,   ∂Q_ia/∂q̇_jb = −n_i n_j ∫κ_N X̃_a X̃_b dA − (δ_ij − n_i n_j) ∫κ_T X̃_a X̃_b dA
 //!
-//! with κ_N, κ_T of damping and friction.
+//! with κ_N, κ_T of damping and friction. Under Coulomb's bound κ_T is σ κ, and the derivatives are those of its product
+//! with the viscous friction Q_T: Q_T ⊗ ∂σ beside, by the motion σ g Q_T ⊗ Q_T (`bound`).
 
 use super::law_set::{ContactScratch, LawSet};
 use super::meeting::{Meeting, RelativeMotion};
-use super::sums::{SumSlopes, Sums};
+use super::resultant::SplitMotion;
+use super::sums::{SumSlopes, Sums, push};
 use super::tension::{PAIR, TensionSlopes};
-use super::{Action, AreaMeasure};
+use super::{Action, AreaMeasure, Bound, Sliding};
 use crate::load::{COORDINATES, LoadSlopes, Loads, numbers};
 use crate::surface::{GapClosed, Moments, OrientedMoments};
 use crate::tensor::Mat3;
@@ -29,6 +31,16 @@ pub struct ContactSlopes {
     by_stretch: Option<([Loads; 9], Mat3)>,
     /// Σ β d₀^ν × moments of damping and of friction.
     viscous: [Sums; 2],
+    bounded: Option<BoundedFriction>,
+}
+
+/// Friction with a bound, and what it is without it.
+#[derive(Debug, Clone, Copy)]
+struct BoundedFriction {
+    bound: Bound,
+    /// Σ β d₀^ν × moments.
+    sums: Sums,
+    loads: Loads,
 }
 
 impl ContactSlopes {
@@ -40,9 +52,15 @@ impl ContactSlopes {
         let plan = laws.derivatives();
         let moments = scratch.take(plan.requests().len());
         meeting.moments(laws, plan, moments)?;
-        let SumSlopes { values, by_gap: slopes } = SumSlopes::new(laws, moments);
         let motion = meeting.motion;
         let RelativeMotion { normal, velocity, gradient_rate } = &motion;
+        let mut sums = SumSlopes::new(laws, moments);
+        let split = SplitMotion::new(&motion);
+        let bounded = sums.bind(laws, moments, |friction| split.lost(friction)).map(|(bound, sums)| {
+            let loads = sums.act(Action::Tangential, normal, velocity, gradient_rate);
+            BoundedFriction { bound, sums, loads }
+        });
+        let SumSlopes { values, by_gap: slopes } = sums;
         let mut total = Loads::default();
         let mut by_gap = [Loads::default(); 4];
         for action in Action::ALL.into_iter().filter(|action| laws.acts(*action)) {
@@ -52,7 +70,7 @@ impl ContactSlopes {
             }
         }
         let [_, damping, friction] = values;
-        let mut this = Self { total, motion, by_gap, by_stretch: None, viscous: [damping, friction] };
+        let mut this = Self { total, motion, by_gap, by_stretch: None, viscous: [damping, friction], bounded };
         this.stretch(laws, meeting, scratch)?;
         Ok(this)
     }
@@ -66,7 +84,8 @@ impl ContactSlopes {
         let RelativeMotion { normal, velocity, gradient_rate } = &self.motion;
         // The loads with the weights m_a m_b; with (I − m⊗m)_jl they are δ_jl times their trace less those of jl.
         let pairs: [Loads; 6] = std::array::from_fn(|pair| {
-            let sums = pair_sums(laws, moments, pair);
+            let mut sums = pair_sums(laws, moments, pair);
+            self.bind(laws, moments, pair, &mut sums);
             let acting = Action::ALL.into_iter().filter(|action| laws.acts(*action));
             acting.map(|action| sums[action as usize].act(action, normal, velocity, gradient_rate)).sum()
         });
@@ -84,6 +103,17 @@ impl ContactSlopes {
         }
         self.by_stretch = Some((by_stretch, deformation.inverse));
         Ok(())
+    }
+
+    /// The same with the bound of friction, which changes, too.
+    fn bind(&self, laws: &LawSet, moments: &[OrientedMoments], pair: usize, sums: &mut [Sums; Action::COUNT]) {
+        let Some(BoundedFriction { bound, sums: free, .. }) = &self.bounded else { return };
+        let friction = &mut sums[Action::Tangential as usize];
+        let push = push(laws, |planned| planned.term.coefficient * moments[planned.value].pairs[pair].zeroth);
+        let lost = SplitMotion::new(&self.motion).lost(friction);
+        let change = bound.change(&Sliding { lost, resistance: friction.zeroth, push });
+        friction.scale(bound.factor());
+        friction.add_scaled(change, free);
     }
 
     /// The change of the tension with the gap: U′ = −c d^−ν.
@@ -126,6 +156,10 @@ impl ContactSlopes {
         let [damping, friction] = &self.viscous;
         slopes.resist(&along, damping.zeroth, &damping.first, &damping.second);
         slopes.resist(&(Mat3::identity() - along), friction.zeroth, &friction.first, &friction.second);
+        if let Some(BoundedFriction { bound, loads, .. }) = &self.bounded {
+            let loads = numbers(loads);
+            slopes.by_rate.ger(bound.by_motion(), &loads, &loads, 1.0);
+        }
     }
 }
 

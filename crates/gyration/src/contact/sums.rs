@@ -5,8 +5,8 @@
 //!
 //!   ∂(d^−ν) = −ν d^−(ν+1) (δg₀ + δm·X)
 
-use super::Action;
-use super::law_set::LawSet;
+use super::law_set::{LawSet, PlannedTerm};
+use super::{Action, Bound, LawKind, Sliding, Term};
 use crate::surface::Moments;
 use crate::tensor::{Mat3, Vec3};
 
@@ -38,6 +38,20 @@ impl Sums {
         }
     }
 
+    /// All of it times a factor.
+    pub fn scale(&mut self, factor: f64) {
+        self.zeroth *= factor;
+        self.first *= factor;
+        self.second *= factor;
+    }
+
+    /// Adds other sums times a factor.
+    pub fn add_scaled(&mut self, factor: f64, other: &Self) {
+        self.zeroth += factor * other.zeroth;
+        self.first += factor * other.first;
+        self.second += factor * other.second;
+    }
+
     /// Adds the derivatives by one component of m: the moments with one more X.
     fn add_raised(&mut self, slope: f64, action: Action, moments: &Moments, axis: usize) {
         self.zeroth += slope * moments.first[axis];
@@ -57,6 +71,21 @@ impl Sums {
         }
         sums
     }
+
+    /// Puts the bound on friction, if it has one, given what it takes of its sums [W]: the sums are then those of σ κ.
+    #[inline]
+    pub fn bind(sums: &mut [Self; Action::COUNT], laws: &LawSet, moments: &[Moments], lost: impl Fn(&Self) -> f64) {
+        let Some(mu) = laws.mu() else { return };
+        let push = push(laws, |planned| planned.term.coefficient * moments[planned.value].zeroth);
+        let friction = &mut sums[Action::Tangential as usize];
+        let bound = Bound::new(mu, Sliding { lost: lost(friction), resistance: friction.zeroth, push });
+        friction.scale(bound.factor());
+    }
+}
+
+/// Σ over the terms of repulsion: N, or its derivative.
+pub(super) fn push(laws: &LawSet, of_term: impl Fn(&PlannedTerm) -> f64) -> f64 {
+    laws.terms().iter().filter(|planned| planned.term.kind == LawKind::Repulsion).map(of_term).sum()
 }
 
 impl SumSlopes {
@@ -75,5 +104,26 @@ impl SumSlopes {
             }
         }
         sums
+    }
+
+    /// Puts the bound on friction, if it has one, given what it takes of its sums [W]: the sums are then those of σ κ,
+    /// at velocities that are kept. What is returned has the sums without it.
+    pub fn bind(&mut self, laws: &LawSet, moments: &[Moments], lost: impl Fn(&Sums) -> f64) -> Option<(Bound, Sums)> {
+        let mu = laws.mu()?;
+        let free = self.values[Action::Tangential as usize];
+        let at = push(laws, |planned| planned.term.coefficient * moments[planned.value_with_derivative].zeroth);
+        let bound = Bound::new(mu, Sliding { lost: lost(&free), resistance: free.zeroth, push: at });
+        let slope = |term: &Term| -term.exponent * term.coefficient;
+        for (place, sums) in self.by_gap[Action::Tangential as usize].iter_mut().enumerate() {
+            let push = push(laws, |planned| {
+                let moments = &moments[planned.derivative];
+                slope(&planned.term) * if place == 0 { moments.zeroth } else { moments.first[place - 1] }
+            });
+            let change = bound.change(&Sliding { lost: lost(sums), resistance: sums.zeroth, push });
+            sums.scale(bound.factor());
+            sums.add_scaled(change, &free);
+        }
+        self.values[Action::Tangential as usize].scale(bound.factor());
+        Some((bound, free))
     }
 }

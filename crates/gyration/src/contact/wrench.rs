@@ -10,12 +10,15 @@
 //! however many the state has; derivatives are taken here and carried over to the state once (`jacobian`). Moments are
 //! linear in the sums, so that derivatives through the gap are the same formula with other sums.
 //!
+//! Coulomb's bound scales T, and brings the change of its factor (`bound`): F_T ⊗ ∂σ beside, F_T the viscous friction.
+//!
 //! Normal and tangential parts are not mixed: next to a support one may exceed the other by more than the digits of a
 //! number. The force is therefore formed in space, where the normal of a support is often an axis.
 
 use super::law_set::{ContactScratch, LawSet};
 use super::meeting::RelativeMotion;
 use super::sums::{SumSlopes, Sums};
+use super::{Action, Bound, Sliding};
 use crate::load::{Wrench, WrenchSlope};
 use crate::surface::{GapClosed, GapField, Surface};
 use crate::tensor::{Mat3, Vec3, cross_matrix, turning};
@@ -91,6 +94,13 @@ impl RigidMotion {
             + (spin.dot(&(turning(&sums.second) * spin)) - c.dot(&(sums.second * c)))
     }
 
+    /// How that changes with a turn, the sums being kept.
+    fn loss_by_turn(&self, sums: &Sums) -> Vec3 {
+        let Self { direction: m, sliding, rotation, spin, .. } = self;
+        let swept = sums.second * self.slope();
+        2.0 * (spin.cross(&sums.first).cross(&rotation.tr_mul(sliding)) - spin.cross(&swept).cross(m))
+    }
+
     /// f and τ of the sums C, N, T.
     fn wrench(&self, [central, normal, tangential]: [&Sums; 3]) -> Wrench {
         let Self { normal: n, direction: m, approach, sliding, rotation, spin } = self;
@@ -155,7 +165,8 @@ impl RigidLoads {
         let plan = laws.values();
         let moments = scratch.take(plan.requests().len());
         surface.planned_moments(field, plan, moments)?;
-        let sums = Sums::by_action(laws, moments);
+        let mut sums = Sums::by_action(laws, moments);
+        Sums::bind(&mut sums, laws, moments, |friction| motion.squared_across(friction));
         let [_, normal, tangential] = &sums;
         Ok(Self {
             wrench: motion.wrench(sums.each_ref()),
@@ -177,7 +188,8 @@ impl ContactWrench {
         let plan = laws.derivatives();
         let moments = scratch.take(plan.requests().len());
         surface.planned_moments(field, plan, moments)?;
-        let sums = SumSlopes::new(laws, moments);
+        let mut sums = SumSlopes::new(laws, moments);
+        let bounded = sums.bind(laws, moments, |friction| motion.squared_across(friction));
         let through_gap = |slope: usize| {
             let [central, normal, tangential] = &sums.by_gap;
             motion.wrench([&central[slope], &normal[slope], &tangential[slope]])
@@ -191,6 +203,26 @@ impl ContactWrench {
         let mut by_turn = motion.by_turn(values);
         by_turn += through_direction.times(&cross_matrix(&motion.direction));
         let (by_velocity, by_spin) = motion.by_motion(values);
-        Ok(Self { wrench: motion.wrench(values), by_height: through_gap(0), by_turn, by_velocity, by_spin })
+        let mut found =
+            Self { wrench: motion.wrench(values), by_height: through_gap(0), by_turn, by_velocity, by_spin };
+        if let Some((bound, free)) = bounded {
+            let mut only = [Sums::default(); Action::COUNT];
+            only[Action::Tangential as usize] = free;
+            found.add_bound(&bound, &motion.wrench(only.each_ref()), &motion.loss_by_turn(&free));
+        }
+        Ok(found)
+    }
+
+    /// Adds what the factor of a bound changes by with the motion and a turn, given the viscous friction and how what it
+    /// takes changes with a turn, the moments being kept [W].
+    pub(super) fn add_bound(&mut self, bound: &Bound, friction: &Wrench, by_turn: &Vec3) {
+        let by_turn = by_turn.map(|lost| bound.change(&Sliding { lost, resistance: 0.0, push: 0.0 }));
+        let along = |by: &Vec3| WrenchSlope {
+            force: friction.force * by.transpose(),
+            torque: friction.torque * by.transpose(),
+        };
+        self.by_turn += along(&by_turn);
+        self.by_velocity += along(&(bound.by_motion() * friction.force));
+        self.by_spin += along(&(bound.by_motion() * friction.torque));
     }
 }

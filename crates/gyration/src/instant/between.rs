@@ -158,8 +158,9 @@ impl Between {
         })
     }
 
-    /// Finds again what pairs do of which a body has no inertia, as far as they feel its velocity: their planes stay.
-    pub fn find_felt(&mut self, looking: &mut Looking) -> Result<(), Inadmissible> {
+    /// Finds again what pairs do of which a body has no inertia, as far as they feel its velocity, or that with its
+    /// derivatives: their planes stay.
+    pub fn find_felt(&mut self, looking: &mut Looking, wanted: Wanted) -> Result<(), Inadmissible> {
         if !looking.model.rules().all().iter().any(|rule| rule.laws.feel_velocities()) {
             return Ok(());
         }
@@ -168,7 +169,7 @@ impl Between {
         looking.for_each(|looked, room| {
             let Some(looked) = looked else { return Ok(()) };
             if let Some(sloped) = sloped[place].filter(|_| looked.feels_balance()) {
-                match looked.asked {
+                match wanted {
                     Wanted::Loads => loads[place] = Some(looked.loads(room)?),
                     Wanted::Slopes => {
                         looked.find_slopes(&mut slopes[sloped], room)?;

@@ -160,8 +160,21 @@ impl Instant<'_> {
     /// # Errors
     /// [`Inadmissible`] if no plane separates two bodies.
     pub(crate) fn find_felt_pairs(&mut self) -> Result<(), Inadmissible> {
+        let wanted = self.wanted;
+        self.find_felt(wanted)
+    }
+
+    /// The same with the derivatives by which a balance is found.
+    ///
+    /// # Errors
+    /// As there.
+    pub(crate) fn differentiate_felt_pairs(&mut self) -> Result<(), Inadmissible> {
+        self.find_felt(Wanted::Slopes)
+    }
+
+    fn find_felt(&mut self, wanted: Wanted) -> Result<(), Inadmissible> {
         let (between, mut looking) = self.looking();
-        between.find_felt(&mut looking)
+        between.find_felt(&mut looking, wanted)
     }
 
     /// The model.

@@ -30,6 +30,8 @@ pub(super) struct ViscousLaw {
     pub coefficient: f64,
     /// ν′.
     pub exponent: f64,
+    /// μ of a friction that has a bound.
+    pub mu: Option<f64>,
     /// Where its moments stand in the plan `resisting`.
     pub value: usize,
     /// Where those of ν′ and of ν′ + 1 stand in the plan `resisting_slopes`.
@@ -71,6 +73,16 @@ impl PairLaws {
         !self.viscous.is_empty()
     }
 
+    /// Whether the loads are linear in the velocities.
+    pub fn is_linear(&self) -> bool {
+        self.mu().is_none()
+    }
+
+    /// μ, where the friction has a bound.
+    pub fn mu(&self) -> Option<f64> {
+        self.laws.iter().find_map(ContactLaw::mu)
+    }
+
     /// Joins the laws between two bodies.
     ///
     /// # Errors
@@ -89,7 +101,8 @@ impl PairLaws {
                     }
                     let value = request(&mut values, *exponent, 2);
                     let slopes = [request(&mut slopes, *exponent, 2), request(&mut slopes, exponent + 1.0, 3)];
-                    viscous.push(ViscousLaw { kind: law.kind(), coefficient, exponent: *exponent, value, slopes });
+                    let (kind, mu) = (law.kind(), law.mu());
+                    viscous.push(ViscousLaw { kind, coefficient, exponent: *exponent, mu, value, slopes });
                 }
                 ContactLaw::Adhesion(_) => return Err(PairLawsError::Missing { kind: LawKind::Adhesion }),
             }

@@ -13,13 +13,16 @@
 //! material point that stands at the foot of X̃ on the plane. With ⟨A, B⟩ = tr(A M Bᵀ), summed over both sides,
 //!
 //!   Σ_l ⟨B_k, B_l⟩ η_l = ⟨B_k, ΠV⟩,   (f | M) = −W M,   W = ΠV − Σ η_k B_k,   power = −⟨W, W⟩
+//!
+//! Coulomb's bound scales all of a friction by σ, with 2R = ⟨W, W⟩ and B = B_A B_B/(B_A + B_B), B_i = ∫κ_i dA: both sides
+//! alike, so that the mediator stays as it is (`contact/bound`).
 
 use super::fault::PairFault;
 use super::laws::{PairLaws, ViscousLaw, raised};
 use super::placed::Placed;
 use super::side::{Half, joined};
 use super::{Mat4, Mat34, Vec4};
-use crate::contact::LawKind;
+use crate::contact::{Bound, LawKind, Sliding};
 use crate::load::Mat12;
 use crate::surface::Moments;
 use crate::tensor::{Mat3, Vec3, cross_matrix};
@@ -56,6 +59,8 @@ pub(super) struct Mediator {
     pub system: Cholesky<f64, Const<3>>,
     /// G, of friction.
     pub feet: Option<[Foot; 2]>,
+    /// Of a friction that has one.
+    pub bound: Option<Bound>,
 }
 
 /// G = 1 − a⊗e of a side: e the height of X̃ over the plane, and a how X̃ changes with it along the normal.
@@ -147,6 +152,11 @@ pub(super) fn along(fields: &[Mat34; 3], weighed: &Mat34) -> Vec3 {
     Vec3::from_fn(|k, _| fields[k].dot(weighed))
 }
 
+/// B_A B_B/(B_A + B_B).
+fn in_series([above, below]: [f64; 2]) -> f64 {
+    above * (below / (above + below))
+}
+
 /// (p₀ − foot | P) of a side, both places from A's centre.
 pub(super) fn from_foot(half: &Half, foot: &Vec3) -> Mat34 {
     let mut columns = half.columns;
@@ -189,35 +199,65 @@ impl Mediator {
         for (slip, fields) in slips.iter_mut().zip(&fields) {
             *slip -= combined(&motion, fields);
         }
-        Ok(Self { kind, moments, fields, pressed, slips, motion, system, feet })
+        let mut found = Self { kind, moments, fields, pressed, slips, motion, system, feet, bound: None };
+        found.bound = law.mu.map(|mu| {
+            let resistance = in_series(found.resistances());
+            Bound::new(mu, Sliding { lost: -found.viscous_power(), resistance, push: placed.push() })
+        });
+        Ok(found)
     }
 
     /// (f | M) on a side.
     pub fn loads(&self, side: usize) -> Mat34 {
+        let viscous = self.viscous(side);
+        self.bound.as_ref().map_or(viscous, |bound| bound.factor() * viscous)
+    }
+
+    /// The same without a bound.
+    pub(super) fn viscous(&self, side: usize) -> Mat34 {
         -(self.slips[side] * self.moments[side])
     }
 
     /// What it takes from both [W], negative.
     pub fn power(&self) -> f64 {
+        let viscous = self.viscous_power();
+        self.bound.as_ref().map_or(viscous, |bound| bound.factor() * viscous)
+    }
+
+    /// The same without a bound.
+    fn viscous_power(&self) -> f64 {
         -(0..2).map(|side| (self.slips[side] * self.moments[side]).dot(&self.slips[side])).sum::<f64>()
+    }
+
+    /// B of both sides.
+    pub(super) fn resistances(&self) -> [f64; 2] {
+        self.moments.each_ref().map(|moments| moments[(0, 0)])
     }
 
     /// Adds the derivatives of (f | M) on each side by the motion of each, places kept.
     ///
     ///   ∂(f | M)_i/∂V_j = G_i S⁻¹ G_jᵀ − δ_ij M_i⊗Π,   G_i = (B_1M_i, B_2M_i, B_3M_i),   S_kl = Σ ⟨B_k, B_l⟩
     ///
-    /// G is 12×3; the B_k lie in the image of Π.
+    /// G is 12×3; the B_k lie in the image of Π. A bound takes σ of that, and σ g Q_i ⊗ Q_j beside, Q = (f | M) without it.
     pub fn add_by_rates(&self, normal: &Vec3, slopes: &mut [[Mat12; 2]; 2]) {
         let projector = projector(self.kind, normal);
+        let factor = self.bound.as_ref().map_or(1.0, Bound::factor);
         let pressed = self.pressed.each_ref().map(|pressed| {
             Mat12x3::from_columns(&pressed.each_ref().map(|pressed| Vec12::from_column_slice(pressed.as_slice())))
         });
         for (body, pressed_by) in pressed.iter().enumerate() {
-            let motion = self.system.solve(&pressed_by.transpose());
+            let motion = factor * self.system.solve(&pressed_by.transpose());
             for (side, pressed) in pressed.iter().enumerate() {
                 slopes[side][body] += pressed * motion;
             }
-            slopes[body][body] -= self.moments[body].kronecker(&projector);
+            slopes[body][body] -= (factor * self.moments[body]).kronecker(&projector);
+        }
+        let Some(bound) = &self.bound else { return };
+        let viscous = [0, 1].map(|side| Vec12::from_column_slice(self.viscous(side).as_slice()));
+        for (side, acting) in viscous.iter().enumerate() {
+            for (body, moved) in viscous.iter().enumerate() {
+                slopes[side][body].ger(bound.by_motion(), acting, moved, 1.0);
+            }
         }
     }
 }

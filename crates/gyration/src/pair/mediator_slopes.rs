@@ -6,6 +6,10 @@
 //! M of a side changes with its weight κ, with z, by the moments of one more power of the gap, and of friction with G:
 //!
 //!   δ(G M Gᵀ) = G δM Gᵀ − c − cᵀ,   c = δa⊗(G M e) + a⊗(G M δe),   δa = (0; P⁻¹(δn − δP P⁻¹n))
+//!
+//! With a bound that is σ δ(f | M) + (f | M) δσ. Since η makes ⟨W, W⟩ least, its change has none of η in it:
+//!
+//!   δ⟨W, W⟩ = Σ W·(2 (δΠ V − Σ η_k δB_k) M + W δM),   δB = Σ δB_i (B/B_i)²,   δ log N = δ log λ_A + δ log a_A⁰
 
 use super::expansion::Change;
 use super::laws::ViscousLaw;
@@ -13,7 +17,7 @@ use super::mediator::{Mediator, Shares, along, combined, from_foot, uniform, upr
 use super::side::joined;
 use super::state::PairState;
 use super::{Mat4, Mat34, Vec4};
-use crate::contact::LawKind;
+use crate::contact::{LawKind, Sliding};
 use crate::surface::Moments;
 use crate::tensor::{Vec3, cross_matrix};
 
@@ -76,7 +80,7 @@ impl Mediator {
         places: [&Mat34; 2],
         change: &Change,
     ) -> [Mat34; 2] {
-        let mut right = Vec3::zeros();
+        let (mut right, mut lost, mut resistances) = (Vec3::zeros(), 0.0, [0.0; 2]);
         let changed = [0, 1].map(|side| {
             let moments = self.moments_along(state, side, &slopes[side], places[side], change);
             let fields = self.fields_along(state, &slopes[side], places[side], change);
@@ -85,12 +89,23 @@ impl Mediator {
             let turned = change.normal * rising.transpose()
                 + state.placed.plane.normal * rates.tr_mul(&change.normal).transpose();
             let slip = sign * turned - combined(&self.motion, &fields);
-            let changed = self.slips[side] * moments + slip * self.moments[side];
-            right += along(&self.fields[side], &changed) - along(&fields, &self.loads(side));
+            let slipped = slip * self.moments[side];
+            let changed = self.slips[side] * moments + slipped;
+            right += along(&self.fields[side], &changed) - along(&fields, &self.viscous(side));
+            if self.bound.is_some() {
+                lost += (changed + slipped).dot(&self.slips[side]);
+                resistances[side] = moments[(0, 0)];
+            }
             changed
         });
         let motion = self.system.solve(&right);
-        [0, 1].map(|side| combined(&motion, &self.pressed[side]) - changed[side])
+        let viscous = [0, 1].map(|side| combined(&motion, &self.pressed[side]) - changed[side]);
+        let Some(bound) = &self.bound else { return viscous };
+        let own = self.resistances();
+        let resistance = (0..2).map(|side| resistances[side] * (own[1 - side] / (own[0] + own[1])).powi(2)).sum();
+        let push = state.placed.push() * change.weights[0] + state.placed.weights[0] * change.first[0][0];
+        let growth = bound.change(&Sliding { lost, resistance, push });
+        [0, 1].map(|side| bound.factor() * viscous[side] + growth * self.viscous(side))
     }
 
     /// δB of a side.

@@ -55,6 +55,11 @@ impl Placed {
         self.switching = switch.bend;
     }
 
+    /// N [N]: what the repulsion presses both together with.
+    pub fn push(&self) -> f64 {
+        self.weights[0] * self.first[0][0]
+    }
+
     /// Whether they do nothing to each other.
     pub fn is_out_of_reach(&self) -> bool {
         self.weights == [0.0; 2]

@@ -32,7 +32,7 @@ pub fn laws(exponents: [f64; 4]) -> Vec<ContactLaw> {
     vec![
         ContactLaw::Repulsion(Repulsion { alpha: 2.0, exponent: repulsion, reference_gap: 0.3 }),
         ContactLaw::Damping(Damping { beta: 0.7, exponent: damping, reference_gap: 0.4 }),
-        ContactLaw::Friction(Friction { beta: 0.9, exponent: friction, reference_gap: 0.2 }),
+        ContactLaw::Friction(Friction { beta: 0.9, exponent: friction, reference_gap: 0.2, mu: None }),
         ContactLaw::Adhesion(Adhesion {
             beta: 1.3,
             attractive_exponent: adhesion,
@@ -63,6 +63,24 @@ pub fn resistances(frame: Frame) -> Vec<LinearResistance> {
         LinearResistance::friction(&(root * root.transpose()), frame).unwrap(),
         LinearResistance::gyroscopic(&skew, frame).unwrap(),
     ]
+}
+
+/// The same model, the friction of whose contacts has a bound.
+pub fn bounded(model: Model, mu: f64) -> Model {
+    let bind = |contact: &Contact| {
+        let laws = contact.law_set.laws().iter().map(|law| bounded_law(*law, mu)).collect();
+        Contact::new(contact.body, contact.support, LawSet::new(contact.law_set.measure, laws))
+    };
+    let contacts = model.contacts().iter().map(bind).collect();
+    model.with_contacts(contacts)
+}
+
+/// The same law, with a bound if it is a friction.
+pub fn bounded_law(law: ContactLaw, mu: f64) -> ContactLaw {
+    match law {
+        ContactLaw::Friction(friction) => ContactLaw::Friction(Friction { mu: Some(mu), ..friction }),
+        other => other,
+    }
 }
 
 /// What bodies differ in.

@@ -2,8 +2,8 @@
 //!
 //!   A_i(q, v, G) = λ_i Y_i,   tr(Ṗ_i P_i⁻¹) = θ_i,      q̇ = B(q) v,   Ġ = V_G G
 //!
-//! A are the accelerations that a body with inertia would have, which vanish when the loads do. They are linear in the
-//! velocities v, and their matrix is that of the exact Jacobian. Where the pressure of an incompressible body keeps det
+//! A are the accelerations that a body with inertia would have, which vanish when the loads do. Where they are linear in
+//! the velocities v, one solution with the matrix of the exact Jacobian gives these; else it begins Newton's method. Where the pressure of an incompressible body keeps det
 //! P, A is known but for a multiple λ of Y = P⁻ᵀJ⁻¹, and the growth θ of its volume takes the place of that equation
 //! (zero, or that of a contraction that is prescribed). Bodies that feel one another's velocities, through dashpots or
 //! through damping and friction where they meet, are balanced together. Masses only weigh the equations: nothing
@@ -13,9 +13,11 @@
 //! |-----------|-------------------------------------------------------------------|
 //! | `volume`  | the constraint of an incompressible body                          |
 //! | `factors` | the matrix of one body or several, and its factors                |
+//! | `newton`  | the balance under loads that are not linear in the velocities     |
 //! | `slopes`  | the derivatives of the rates                                      |
 
 mod factors;
+mod newton;
 mod slopes;
 mod volume;
 
@@ -73,6 +75,9 @@ struct Group {
     together: Option<Together>,
     /// What was found last: their velocities and λ.
     velocities: Vec<f64>,
+    /// Room for a step of Newton's method, and from where it goes.
+    start: Vec<f64>,
+    step: Vec<f64>,
 }
 
 /// A body of a group at an instant, as if it had inertia.
@@ -149,7 +154,7 @@ impl Balances {
             }
             group.begin(side);
             let nothing_resists = without_resistance(group.bodies[0]);
-            let Group { bodies, ranges, together, velocities } = group;
+            let Group { bodies, ranges, together, velocities, .. } = group;
             for (member, range) in members.iter().zip(&*ranges) {
                 let growth = member.kept.as_ref().map_or(0.0, |kept| kept.growth);
                 member.bordered.side(&member.rates[member.slots.velocities()], growth, &mut side[range.clone()]);
@@ -167,7 +172,15 @@ impl Balances {
             group.refine(instant, scratch, side)?;
             refined = true;
         }
-        if refined { instant.find_felt_pairs() } else { Ok(()) }
+        if refined {
+            instant.find_felt_pairs()?;
+        }
+        for group in groups {
+            if !group.is_linear(instant) {
+                group.converge(instant, scratch, members, side)?;
+            }
+        }
+        Ok(())
     }
 
     /// Finds which bodies feel one another's velocities; what was found before stays if it is the same.
@@ -225,7 +238,7 @@ impl Group {
             |(one, other): &(usize, usize)| Some((places.binary_search(one).ok()?, places.binary_search(other).ok()?));
         let together = (places.len() > 1).then(|| Together::new(&ranges, links.pairs.iter().filter_map(own)));
         let bodies = places.iter().map(|place| links.bodies[*place]).collect();
-        Self { bodies, ranges, together, velocities: Vec::new() }
+        Self { bodies, ranges, together, velocities: Vec::new(), start: Vec::new(), step: Vec::new() }
     }
 
     /// Solves once more for what the loads at the velocities that were found leave: what two bodies do to each other is
@@ -236,33 +249,63 @@ impl Group {
         scratch: &mut Scratch,
         side: &mut Vec<f64>,
     ) -> Result<(), Inadmissible> {
-        self.begin(side);
-        let Self { bodies, ranges, together, velocities } = self;
+        let Self { bodies, ranges, together, velocities, .. } = self;
         let Some(together) = together else { return Ok(()) };
-        for (body, range) in bodies.iter().zip(&*ranges) {
-            let at = instant.at(*body);
-            let slots = Slots::with_inertia(at.body, 0);
-            let mut rates = [0.0; NUMBERS];
-            body_rates(&at, &slots, scratch, &mut rates)?;
-            let left = slots.velocities().zip(&mut side[range.clone()]);
-            left.for_each(|(rate, out)| *out = -rates[rate]);
-        }
+        unbalanced(instant, scratch, bodies, ranges, side)?;
         together.factorized().solve(side).ok_or_else(|| without_resistance(bodies[0]))?;
         for (body, range) in bodies.iter().zip(&*ranges) {
             let slots = Slots::with_inertia(instant.at(*body).body, 0);
             for place in range.start..range.start + slots.velocities().len() {
                 velocities[place] += side[place];
             }
-            move_at(instant, *body, &slots, &velocities[range.clone()])?;
         }
-        Ok(())
+        move_all(instant, bodies, ranges, velocities)
     }
 
     /// Begins a right-hand side.
     fn begin(&self, side: &mut Vec<f64>) {
-        side.clear();
-        side.resize(self.ranges.last().map_or(0, |range| range.end), 0.0);
+        begin(&self.ranges, side);
     }
+}
+
+/// Begins a right-hand side.
+fn begin(ranges: &[Range<usize>], side: &mut Vec<f64>) {
+    side.clear();
+    side.resize(ranges.last().map_or(0, |range| range.end), 0.0);
+}
+
+/// Writes the right-hand side of what the loads at the velocities of an instant leave.
+fn unbalanced(
+    instant: &Instant,
+    scratch: &mut Scratch,
+    bodies: &[usize],
+    ranges: &[Range<usize>],
+    side: &mut Vec<f64>,
+) -> Result<(), Inadmissible> {
+    begin(ranges, side);
+    for (body, range) in bodies.iter().zip(ranges) {
+        let at = instant.at(*body);
+        let slots = Slots::with_inertia(at.body, 0);
+        let mut rates = [0.0; NUMBERS];
+        body_rates(&at, &slots, scratch, &mut rates)?;
+        let left = slots.velocities().zip(&mut side[range.clone()]);
+        left.for_each(|(rate, out)| *out = -rates[rate]);
+    }
+    Ok(())
+}
+
+/// Gives the bodies of a group these velocities.
+fn move_all(
+    instant: &mut Instant,
+    bodies: &[usize],
+    ranges: &[Range<usize>],
+    velocities: &[f64],
+) -> Result<(), Inadmissible> {
+    for (body, range) in bodies.iter().zip(ranges) {
+        let slots = Slots::with_inertia(instant.at(*body).body, 0);
+        move_at(instant, *body, &slots, &velocities[range.clone()])?;
+    }
+    Ok(())
 }
 
 /// The factors of the balance of the bodies of a group, in the room that several have; none if nothing resists the

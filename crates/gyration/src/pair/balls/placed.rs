@@ -1,5 +1,6 @@
 //! Two balls whose plane is found: the slab between them, what they do to each other, and its derivatives.
 
+use super::viscous::Pressed;
 use super::{Balls, Repelled, Stiffness};
 use crate::contact::LawKind;
 use crate::kinematics::Velocity;
@@ -108,7 +109,8 @@ impl PlacedBalls<'_> {
         let Self { balls, normal, distance, gaps } = self;
         let repelled = balls.repulsion(*gaps)?;
         let switch = Switch::at(threshold, repelled.energy);
-        let Stiffness { stiffness, levers_by_gap, shares } = balls.stiffness(&repelled);
+        let unswitched = balls.stiffness(&repelled);
+        let Stiffness { stiffness, levers_by_gap, .. } = unswitched;
         // χ″ = bend χ′/U, and dU/dg = −F.
         let bend = -switch.bend * repelled.force * balls.growth(&repelled);
         let (force, stiffness) = (switch.slope * repelled.force, switch.slope * (stiffness + bend));
@@ -137,7 +139,9 @@ impl PlacedBalls<'_> {
             }
         }
         slopes.loads = self.pushed(sides, &repelled, &switch);
-        self.resist_with_slopes(laws, sides, (&repelled, &switch), shares, room, slopes);
+        let push = [force, stiffness];
+        let pressed = Pressed { repelled: &repelled, switch: &switch, push, stiffness: &unswitched };
+        self.resist_with_slopes(laws, sides, &pressed, room, slopes);
         Ok(())
     }
 }

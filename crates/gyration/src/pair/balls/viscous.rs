@@ -9,11 +9,12 @@
 //!   f_A = −D₀ (n·v) n − F₀u = −f_B,   τ_i = h_i F₀ n×u − σ_i (D_⊥ Πω + k (n·ω) n)
 //!   power of damping −D₀ (n·v)² − D_⊥ |Πω|²,   of friction −F₀u² − k (n·ω)²
 //!
-//! Torques are about the centres, M = ½ [τ]× P.
+//! Torques are about the centres, M = ½ [τ]× P. Coulomb's bound scales F₀ and k (`bound`).
 
-use super::{Balls, PlacedBalls, Repelled};
+use super::bound::BoundedSlip;
+use super::moving::{Moving, Resistance, Shifted, column};
+use super::{Balls, PlacedBalls, Repelled, Stiffness};
 use crate::contact::LawKind;
-use crate::load::Loads;
 use crate::pair::exchange::{PairLoads, PairSlopes};
 use crate::pair::laws::{PairLaws, ViscousLaw};
 use crate::pair::mediator::Shares;
@@ -21,60 +22,17 @@ use crate::pair::placed::Switch;
 use crate::pair::side::{SIGNS, Side};
 use crate::surface::curved::Sphere;
 use crate::surface::{AxialMoments, MomentPlan};
-use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
+use crate::tensor::{Mat3, cross_matrix};
 use nalgebra::SMatrix;
 
 type Mat12x3 = SMatrix<f64, 12, 3>;
 type Mat3x9 = SMatrix<f64, 3, 9>;
-
-/// What two balls resist one another by, or its change with the slab.
-#[derive(Debug, Clone, Copy, Default)]
-struct Resistance {
-    /// D₀ [N s/m].
-    approach: f64,
-    /// D_⊥ [N m s].
-    tilt: f64,
-    /// F₀ [N s/m].
-    slip: f64,
-    /// k [N m s].
-    drill: f64,
-}
-
-/// How two balls move, along their normal and across it.
-struct Moving {
-    normal: Vec3,
-    /// h [m].
-    heights: [f64; 2],
-    /// n·v [m/s].
-    approach: f64,
-    /// v [m/s].
-    velocity: Vec3,
-    /// u [m/s].
-    slip: Vec3,
-    /// ω_A and ω_B [rad/s].
-    spins: [Vec3; 2],
-    /// ω.
-    spin: Vec3,
-}
 
 /// How much a side resists, and how that changes with the slab.
 #[derive(Clone, Copy)]
 struct Own {
     value: f64,
     slope: f64,
-}
-
-impl Resistance {
-    /// Adds a law, given M₀ and M_⊥ of both sides.
-    fn add(&mut self, kind: LawKind, whole: f64, across: f64) {
-        if kind == LawKind::Damping {
-            self.approach += whole;
-            self.tilt += across;
-        } else {
-            self.slip += whole;
-            self.drill += 2.0 * across;
-        }
-    }
 }
 
 /// x_A x_B/(x_A + x_B), and its change.
@@ -85,47 +43,6 @@ fn in_series([above, below]: [Own; 2]) -> Own {
         value: above.value * part_above,
         slope: above.slope * part_above * part_above + below.slope * part_below * part_below,
     }
-}
-
-impl Moving {
-    fn new(placed: &PlacedBalls, sides: [&Side; 2]) -> Self {
-        let normal = placed.normal;
-        let heights = [0, 1].map(|i| placed.balls.radii[i] + placed.gaps[i]);
-        let spins = sides.map(|side| 0.5 * axial(&(side.velocity.gradient_rate * side.inverse)));
-        let velocity = sides[0].velocity.velocity - sides[1].velocity.velocity;
-        let approach = velocity.dot(&normal);
-        let rolling = heights[0] * spins[0] + heights[1] * spins[1];
-        let slip = velocity - approach * normal - rolling.cross(&normal);
-        Self { normal, heights, approach, velocity, slip, spins, spin: spins[0] - spins[1] }
-    }
-
-    /// −f_A: what a resistance makes of this motion.
-    fn force(&self, by: &Resistance) -> Vec3 {
-        by.approach * self.approach * self.normal + by.slip * self.slip
-    }
-
-    /// D_⊥ Πω + k (n·ω) n.
-    fn twist(&self, by: &Resistance) -> Vec3 {
-        by.tilt * self.spin + (by.drill - by.tilt) * self.normal.dot(&self.spin) * self.normal
-    }
-
-    /// τ of a side.
-    fn torque(&self, side: usize, by: &Resistance) -> Vec3 {
-        self.heights[side] * by.slip * self.normal.cross(&self.slip) - SIGNS[side] * self.twist(by)
-    }
-
-    /// The powers of damping and of friction [W].
-    fn powers(&self, by: &Resistance) -> [f64; 2] {
-        let drilling = self.normal.dot(&self.spin).powi(2);
-        let tilting = self.normal.cross(&self.spin).norm_squared();
-        let damping = by.approach * self.approach.powi(2) + by.tilt * tilting;
-        [-damping, -(by.slip * self.slip.norm_squared() + by.drill * drilling)]
-    }
-}
-
-/// (f | M), given f and τ.
-fn column(force: &Vec3, torque: &Vec3, gradient: &Mat3) -> Loads {
-    Loads { force: *force, moment: 0.5 * cross_matrix(torque) * gradient }
 }
 
 /// (f | M) as it is linear in something, given f and τ as they are.
@@ -140,12 +57,21 @@ fn columns(force: &Mat3, torque: &Mat3, gradient: &Mat3) -> Mat12x3 {
 }
 
 /// ω by the columns of Ṗ: ω = ½ Σ P e_k × Ṗ e_k.
-fn spin_by_rate(gradient: &Mat3) -> Mat3x9 {
+pub(super) fn spin_by_rate(gradient: &Mat3) -> Mat3x9 {
     let mut spin = Mat3x9::zeros();
     for k in 0..3 {
         spin.fixed_columns_mut::<3>(3 * k).copy_from(&(0.5 * cross_matrix(&gradient.column(k).into())));
     }
     spin
+}
+
+/// The repulsion of two balls, as it presses and as that changes with the slab.
+pub(super) struct Pressed<'a> {
+    pub repelled: &'a Repelled,
+    pub switch: &'a Switch,
+    /// N [N] and dN/dg [N/m].
+    pub push: [f64; 2],
+    pub stiffness: &'a Stiffness,
 }
 
 impl Balls {
@@ -190,7 +116,12 @@ impl PlacedBalls<'_> {
             };
             by.add(law.kind, own(|moments| moments.zeroth), own(|moments| moments.across));
         }
-        self.add_resistance(sides, &Moving::new(self, sides), &by, loads);
+        let moving = Moving::new(self, sides);
+        if let Some(mu) = laws.mu() {
+            let bound = moving.bound(mu, &by, switch.slope * repelled.force);
+            by.bind(bound.factor());
+        }
+        self.add_resistance(sides, &moving, &by, loads);
     }
 
     fn add_resistance(&self, sides: [&Side; 2], moving: &Moving, by: &Resistance, loads: &mut PairLoads) {
@@ -209,11 +140,11 @@ impl PlacedBalls<'_> {
         &self,
         laws: &PairLaws,
         sides: [&Side; 2],
-        (repelled, switch): (&Repelled, &Switch),
-        shares_of_gap: [f64; 2],
+        pressed: &Pressed,
         room: &mut [Vec<AxialMoments>; 2],
         slopes: &mut PairSlopes,
     ) {
+        let Pressed { repelled, switch, push, stiffness: &Stiffness { shares: shares_of_gap, .. } } = *pressed;
         if laws.viscous.is_empty() || switch.slope == 0.0 {
             return;
         }
@@ -240,8 +171,12 @@ impl PlacedBalls<'_> {
             by_gap.add(kind, whole.slope, across.slope);
         }
         let moving = Moving::new(self, sides);
+        let bounded = laws.mu().map(|mu| BoundedSlip::new(&moving, mu, [&mut by, &mut by_gap], push));
         self.add_resistance(sides, &moving, &by, &mut slopes.loads);
         self.differentiate(sides, &moving, [&by, &by_gap], shares_of_gap, slopes);
+        if let Some(bounded) = &bounded {
+            bounded.add_slopes(self, sides, &moving, shares_of_gap, slopes);
+        }
     }
 
     /// δ log λ of both by δg.
@@ -306,16 +241,11 @@ impl PlacedBalls<'_> {
         [by, by_gap]: [&Resistance; 2],
         shares_of_gap: [f64; 2],
     ) -> (Mat3, [Mat3; 2]) {
-        let Moving { normal: n, heights, approach, velocity, slip, spins, spin } = moving;
+        let Moving { normal: n, heights, approach, slip, spin, .. } = moving;
         let (mut force, mut torques) = (Mat3::zeros(), [Mat3::zeros(); 2]);
         let drilling = n.dot(spin);
-        let rolling = heights[0] * spins[0] + heights[1] * spins[1];
-        let growing = shares_of_gap[0] * spins[0] + shares_of_gap[1] * spins[1];
         for axis in 0..3 {
-            let wider = n[axis];
-            let turned = (Vec3::ith(axis, 1.0) - wider * n) / self.distance;
-            let approached = velocity.dot(&turned);
-            let slipped = -(approached * n + *approach * turned) - wider * growing.cross(n) - rolling.cross(&turned);
+            let Shifted { wider, turned, approached, slipped } = moving.shifted(self, axis, shares_of_gap);
             let pushed =
                 wider * moving.force(by_gap) + by.approach * (approached * n + *approach * turned) + by.slip * slipped;
             force.set_column(axis, &-pushed);
