@@ -209,6 +209,36 @@ fn errors_of_supports_and_contacts_stand_at_their_place() {
             "pure number",
         ),
         (
+            "[[contact]]\nsupport = \"table\"\nfriction = { beta = 1, nu = 6, mu = §0.3 }\n",
+            "contact.0.friction.mu",
+            "a part of the force of a repulsion",
+            "give the contact a `repulsion`",
+        ),
+        (
+            "[[contact]]\nsupport = \"table\"\nrepulsion = { alpha = 0, nu = 6 }\nfriction = { beta = 1, nu = 6, mu = §0 }\n",
+            "contact.0.friction.mu",
+            "this contact has none",
+            "leave mu out",
+        ),
+        (
+            "[[contact]]\nsupport = \"table\"\nrepulsion = { alpha = 1, nu = 6 }\nfriction = { beta = 1, nu = 6, mu = §-0.1 }\n",
+            "contact.0.friction.mu",
+            "at least 0",
+            "",
+        ),
+        (
+            "[[contact]]\nsupport = \"table\"\nfriction = { beta = 1, nu = 6, §muu = 0.3 }\n",
+            "contact.0.friction.muu",
+            "muu",
+            "did you mean `mu`?",
+        ),
+        (
+            "[[contact]]\nsupport = \"table\"\ndamping = { beta = 1, nu = 6, §mu = 0.3 }\n",
+            "contact.0.damping.mu",
+            "mu",
+            "",
+        ),
+        (
             "[[contact]]\nsupport = \"table\"\ndamping = { beta = 1, nu = 6, d0 = §0 }\n",
             "contact.0.damping.d0",
             "greater than 0 m",

@@ -33,7 +33,12 @@ pub(super) fn attach(
     for Placed { key, value, .. } in &partial.contacts {
         let (measure, laws) = (measure(value.measure), laws(value));
         laws.iter().for_each(|law| range(law, key, reporter));
-        let Some(partners) = names.partners(value, assembled) else { continue };
+        let partners = names.partners(value, assembled);
+        // Bodies that meet without a repulsion have no plane: they are told so.
+        if !matches!(partners, Some(Partners::Bodies(_))) {
+            check_bound(&laws, key, reporter);
+        }
+        let Some(partners) = partners else { continue };
         match partners {
             Partners::Support { support, bodies, named } => {
                 count += bodies.len();
@@ -126,6 +131,16 @@ fn range(law: &ContactLaw, key: &Key, reporter: &mut Reporter<'_>) {
     }
 }
 
+/// Notes a bound on friction that has no force to be a part of.
+fn check_bound(laws: &[ContactLaw], key: &Key, reporter: &mut Reporter<'_>) {
+    let pushes = laws.iter().any(|law| matches!(law, ContactLaw::Repulsion(law) if law.alpha > 0.0));
+    if !pushes && laws.iter().any(|law| law.mu().is_some()) {
+        let message = "a bound on friction is a part of the force of a repulsion, and this contact has none";
+        let help = "give the contact a `repulsion` with alpha > 0, or leave mu out: friction is then viscous";
+        reporter.note(&key.key("friction").key("mu"), message, help);
+    }
+}
+
 fn measure(measure: Measure) -> AreaMeasure {
     match measure {
         Measure::DeformedArea => AreaMeasure::DeformedArea,
@@ -145,7 +160,7 @@ fn laws(contact: &Contact) -> Vec<ContactLaw> {
     });
     let friction = contact.friction.map(|law| {
         let (beta, exponent, reference_gap) = (law.beta.value(), law.nu.0, law.d0.value());
-        ContactLaw::Friction(Friction { beta, exponent, reference_gap })
+        ContactLaw::Friction(Friction { beta, exponent, reference_gap, mu: law.mu.map(|mu| mu.0) })
     });
     let adhesion = contact.adhesion.map(|law| {
         ContactLaw::Adhesion(Adhesion {

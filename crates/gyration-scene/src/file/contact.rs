@@ -31,9 +31,9 @@ pub struct Contact {
     /// Damping −β (d/d₀)^−ν of the normal velocity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping: Option<Resistance>,
-    /// Friction −β (d/d₀)^−ν of the tangential velocity.
+    /// Friction −β (d/d₀)^−ν of the tangential velocity, which may have Coulomb's bound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub friction: Option<Resistance>,
+    pub friction: Option<Friction>,
     /// Adhesion −β ((d/d₀)^−νa − (d/d₀)^−νr) along the normal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adhesion: Option<Adhesion>,
@@ -100,7 +100,7 @@ pub struct Repulsion {
     pub d0: Positive<Length>,
 }
 
-/// Damping or friction β (d/d₀)^−ν.
+/// Damping β (d/d₀)^−ν.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Resistance {
@@ -111,6 +111,22 @@ pub struct Resistance {
     /// Reference gap d₀ (m).
     #[serde(default = "one_metre")]
     pub d0: Positive<Length>,
+}
+
+/// Friction β (d/d₀)^−ν, all of which a bound keeps below μ times the force of the repulsion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Friction {
+    /// Strength β (Pa s/m).
+    pub beta: NonNegative<SurfaceDamping>,
+    /// Exponent ν > 0.
+    pub nu: Positive<f64>,
+    /// Reference gap d₀ (m).
+    #[serde(default = "one_metre")]
+    pub d0: Positive<Length>,
+    /// Coulomb's bound μ; without it friction is viscous at any speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mu: Option<NonNegative<f64>>,
 }
 
 /// Adhesion −β ((d/d₀)^−νa − (d/d₀)^−νr): attracts beyond d₀, repels within.

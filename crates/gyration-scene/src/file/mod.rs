@@ -26,7 +26,7 @@ mod world;
 pub use affine::{Affine, Couple, Entry, Frame, Gyroscopic, InternalFriction, LinearFriction};
 pub use body::{Body, MassProperties, Rigid, Spring};
 pub use bond::{Bond, BondDamping};
-pub use contact::{Adhesion, Contact, Measure, Reach, Repulsion, Resistance};
+pub use contact::{Adhesion, Contact, Friction, Measure, Reach, Repulsion, Resistance};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
 pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
 pub use keep::Keep;
