@@ -11,6 +11,7 @@ mod contractile_robust;
 mod contractile_tables;
 mod corpus;
 mod errors;
+mod joints;
 mod keeps;
 mod lattice_errors;
 mod meetings;

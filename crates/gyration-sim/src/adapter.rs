@@ -337,6 +337,6 @@ impl System for ModelSystem {
     }
 
     fn extended_project(&mut self, t: f64, y: ExtendedMut, w: &mut [f64]) -> f64 {
-        project(&self.model, t, y, w)
+        project(&self.model, &mut self.workspace, t, y, w)
     }
 }

@@ -203,6 +203,7 @@ fn is_alone(model: &Model, index: usize) -> bool {
     let between = |load: Load| match load {
         Load::Spring(end) if end.other().body().is_some() => Ok(()),
         Load::Bond(_) => Ok(()),
+        Load::Joint(end) if end.other().body().is_some() => Ok(()),
         _ => Err(()),
     };
     let body = &model.bodies[index];

@@ -13,6 +13,7 @@ pub mod adapter;
 pub mod events;
 mod first_steps;
 pub mod format;
+mod hold_joints;
 mod in_play;
 mod island;
 mod looseness;

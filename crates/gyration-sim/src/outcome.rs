@@ -48,6 +48,8 @@ pub enum Reason {
     Touching,
     /// A body that deforms was flattened: its volume vanished.
     Inverted,
+    /// A linkage came to where its joints lock it.
+    Locked,
     /// Nothing resists the motion of a body without inertia.
     Unresisted,
     /// A body that deforms in a fluid was drawn out to a thread or flattened to a film.
@@ -267,6 +269,14 @@ impl Stop {
                 format!("body {body:?} has come {:e} m away from its place in the lattice", left.value),
                 "Which bodies meet across cells is listed by where they start: let them stay within half a cell of \
                  there beside one another, or write a larger cell that holds several."
+                    .to_string(),
+            ),
+            Quantity::Joints => (
+                Reason::Locked,
+                "the equations of joints become dependent: a linkage is stretched out, or folded, to where it is locked"
+                    .to_string(),
+                "End the run before, change the lengths so that the linkage does not reach such a place, or start it \
+                 elsewhere."
                     .to_string(),
             ),
             Quantity::Volume => (

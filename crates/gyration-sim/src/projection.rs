@@ -1,8 +1,10 @@
 //! Puts a state back to where the equations keep it: what a guide keeps, |q| = 1, det P = 1 and tr L = 0, det G where
-//! it is kept.
+//! it is kept, joints.
 
+use crate::hold_joints::hold_joints;
 use gyration::affine::AffineBody;
 use gyration::body::{Body, BodyKind, Contractile, Slots, matrix};
+use gyration::dynamics::Workspace;
 use gyration::extended;
 use gyration::ledger::Work;
 use gyration::model::Model;
@@ -13,7 +15,23 @@ use std::ops::Range;
 
 /// Puts a state back to where the equations keep it, and the energy that it took among the works; returns the size of
 /// the largest correction.
-pub(crate) fn project(model: &Model, t: f64, y: ExtendedMut, w: &mut [f64]) -> f64 {
+pub(crate) fn project(model: &Model, workspace: &mut Workspace, t: f64, y: ExtendedMut, w: &mut [f64]) -> f64 {
+    let ExtendedMut { high, low } = y;
+    let correction = restore_bodies(model, t, ExtendedMut { high, low }, w);
+    if model.joints().is_empty() {
+        return correction;
+    }
+    let restore = |y: ExtendedMut| _ = restore_bodies(model, t, y, &mut []);
+    let (size, energy) = hold_joints(model, workspace, t, ExtendedMut { high, low }, restore);
+    if let Some(work) = model.works().iter().position(|work| *work == Work::Constraint) {
+        w[work] += energy;
+    }
+    correction.max(size)
+}
+
+/// Puts each body back to what it keeps by itself, and the energy that it took among the works, if they are given;
+/// returns the size of the largest correction.
+fn restore_bodies(model: &Model, t: f64, y: ExtendedMut, w: &mut [f64]) -> f64 {
     let ExtendedMut { high: y, low } = y;
     let work = model.works().iter().position(|work| *work == Work::Constraint);
     let mut correction: f64 = 0.0;
@@ -32,8 +50,8 @@ pub(crate) fn project(model: &Model, t: f64, y: ExtendedMut, w: &mut [f64]) -> f
             BodyKind::Contractile(contractile) => restore_contraction(contractile, slots, t, y),
         };
         correction = correction.max(size);
-        if let Some(work) = work {
-            w[work] += energy;
+        if let Some(work) = work.and_then(|work| w.get_mut(work)) {
+            *work += energy;
         }
     }
     correction

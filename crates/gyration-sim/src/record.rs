@@ -193,10 +193,18 @@ impl<'a> Job<'a> {
             arrays,
             fixed: Surfaces::of(&self.model.bodies).arrays(),
             csv_order,
-            labels: vec![("body".into(), self.model.names().map(str::to_owned).collect())],
+            labels: self.labels(),
             event_kinds: EVENT_KINDS.map(String::from).into(),
             chunk_rows: chunk_rows_for(row_len, expected),
         }
+    }
+
+    /// The names of bodies, and of joints if there are any.
+    fn labels(&self) -> Vec<(String, Vec<String>)> {
+        let bodies = self.model.names().map(str::to_owned).collect();
+        let joints: Vec<String> = self.model.joints().iter().map(|joint| joint.name.to_string()).collect();
+        let joints = (!joints.is_empty()).then(|| ("joint".into(), joints));
+        std::iter::once(("body".into(), bodies)).chain(joints).collect()
     }
 
     /// The attributes of the recording before the run has ended: scene, resolved form, version, commit; bodies,

@@ -121,6 +121,7 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
             Load::Bond(end) => end.interaction.stiffness(),
             Load::Contact(_)
             | Load::Pair(_)
+            | Load::Joint(_)
             | Load::Couple(_)
             | Load::Applied(_)
             | Load::Resistance(_)

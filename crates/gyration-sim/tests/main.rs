@@ -11,6 +11,7 @@ mod equations;
 mod interruptions;
 mod islands;
 mod joined;
+mod joints;
 mod lattices;
 mod meetings;
 mod modes;

@@ -211,6 +211,45 @@ fn no_step_allocates_under_forces_of_their_own() {
     }
 }
 
+/// Two links and a rubber block on a hinge and balls.
+const JOINED: &str = r#"
+    [time]
+    end = 2.0
+    sample = 0.01
+    [[body]]
+    name = "upper"
+    shape = { box = { size = [0.2, 0.04, 0.06] } }
+    density = 1000
+    position = [0.1, 0, 0]
+    [[body]]
+    name = "block"
+    shape = { box = { size = [0.1, 0.1, 0.08] } }
+    density = 1000
+    affine = { material = { neo_hookean_log = { lambda = "60 kPa", mu = "30 kPa" } }, viscosity = 20 }
+    position = [0.25, 0, 0]
+    [[joint]]
+    name = "shoulder"
+    between = ["space", "upper"]
+    kind = "hinge"
+    points = [[0, 0, 0], [-0.1, 0, 0]]
+    axis = [0, 1, 0.2]
+    [[joint]]
+    name = "wrist"
+    between = ["upper", "block"]
+    kind = "ball"
+    points = [[0.1, 0, 0], [-0.05, 0, 0]]
+"#;
+
+#[test]
+fn no_step_allocates_where_bodies_are_joined() {
+    for (method, end) in [(Method::Explicit, 0.5), (Method::Implicit, 0.2)] {
+        let (allocations, s) = steps_after_the_first(&parsed(JOINED), method, end);
+        println!("{method:?}: {allocations} allocations, {s:?}");
+        assert_eq!(allocations, 0, "{method:?}");
+        assert!(s.accepted() > 20, "{method:?}");
+    }
+}
+
 /// Looks at everything and keeps nothing.
 #[derive(Default)]
 struct Nowhere {

@@ -6,6 +6,7 @@
 use crate::body::Body;
 use crate::contact::{Contact, LawKind};
 use crate::fluid::{Fluid, Inclusion};
+use crate::joint::JointEnd;
 use crate::ledger::{Energy, Work};
 use crate::load::{
     Applied, BodyForce, BondEnd, Couple, InteractionEnd, LinearResistance, Loads, MassFriction, OwnFriction, Potential,
@@ -54,7 +55,7 @@ impl PairAt<'_> {
 }
 
 /// What is between a body and other parties.
-pub(crate) struct Interacting<C, S, B, P> {
+pub(crate) struct Interacting<C, S, B, P, J> {
     /// Laws with supports.
     pub contacts: C,
     /// Springs, those to anchors first.
@@ -63,6 +64,8 @@ pub(crate) struct Interacting<C, S, B, P> {
     pub bonds: B,
     /// Bodies that it meets.
     pub pairs: P,
+    /// Joints.
+    pub joints: J,
 }
 
 /// A kind of load, as forces and moments are told by: each load is of one kind.
@@ -78,7 +81,7 @@ pub enum LoadKind {
     Drag,
     /// Friction that is linear in the velocities of the body.
     Friction,
-    /// What a scene or a controller writes: couples, potentials, body forces, gyroscopic loads.
+    /// Joints, and what a scene or a controller writes: couples, potentials, body forces, gyroscopic loads.
     Load,
 }
 
@@ -98,6 +101,8 @@ pub enum Load<'a> {
     Bond(BondEnd<'a>),
     /// Another body that it meets.
     Pair(PairAt<'a>),
+    /// A joint, to another body or to space.
+    Joint(JointEnd<'a>),
     /// An affine moment.
     Couple(&'a Couple),
     /// What a controller applies.
@@ -126,12 +131,13 @@ impl<'a> Load<'a> {
             impl Iterator<Item = SpringEnd<'a>>,
             impl Iterator<Item = BondEnd<'a>>,
             impl Iterator<Item = PairAt<'a>>,
+            impl Iterator<Item = JointEnd<'a>>,
         >,
         fluid: Option<&'a Fluid>,
         applied: Option<&'a Applied>,
         mut each: impl FnMut(Self) -> Result<(), E>,
     ) -> Result<(), E> {
-        let Interacting { contacts, springs, bonds, pairs } = interactions;
+        let Interacting { contacts, springs, bonds, pairs, joints } = interactions;
         for contact in contacts {
             each(Self::Contact(contact))?;
         }
@@ -143,6 +149,9 @@ impl<'a> Load<'a> {
         }
         for pair in pairs {
             each(Self::Pair(pair))?;
+        }
+        for joint in joints {
+            each(Self::Joint(joint))?;
         }
         let affine = body.affine();
         if let Some(couple) = affine.and_then(|affine| affine.couple.as_ref()) {
@@ -181,6 +190,7 @@ impl<'a> Load<'a> {
             Self::Contact(_) | Self::Pair(_) | Self::Couple(_) => false,
             Self::Spring(_)
             | Self::Bond(_)
+            | Self::Joint(_)
             | Self::Applied(_)
             | Self::Resistance(_)
             | Self::Potential(_)
@@ -200,9 +210,12 @@ impl<'a> Load<'a> {
             Self::Fluid(..) => LoadKind::Drag,
             Self::Resistance(resistance) if resistance.dissipates() => LoadKind::Friction,
             Self::OwnFriction(_) | Self::MassFriction(_) => LoadKind::Friction,
-            Self::Couple(_) | Self::Applied(_) | Self::Resistance(_) | Self::Potential(_) | Self::BodyForce(_) => {
-                LoadKind::Load
-            }
+            Self::Joint(_)
+            | Self::Couple(_)
+            | Self::Applied(_)
+            | Self::Resistance(_)
+            | Self::Potential(_)
+            | Self::BodyForce(_) => LoadKind::Load,
         }
     }
 
@@ -222,6 +235,8 @@ impl<'a> Load<'a> {
             Self::Pair(pair) => pair_works(&pair.end.interaction.form.laws).collect(),
             Self::Spring(end) if end.interaction.law.damping > 0.0 => vec![Work::Load],
             Self::Bond(end) if end.interaction.works() => vec![Work::Load],
+            // What the error of a step leaves: its force does no work.
+            Self::Joint(_) => vec![Work::Constraint],
             Self::Couple(_) | Self::Applied(_) | Self::BodyForce(_) => vec![Work::Load],
             Self::OwnFriction(_) | Self::MassFriction(_) => vec![Work::Viscosity],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
@@ -242,7 +257,8 @@ impl<'a> Load<'a> {
             Self::Spring(_) => Some(Energy::Load),
             Self::Bond(end) => end.interaction.is_energy().then_some(Energy::Load),
             Self::Potential(potential) => potential.is_energy().then_some(Energy::Load),
-            Self::Couple(_)
+            Self::Joint(_)
+            | Self::Couple(_)
             | Self::Applied(_)
             | Self::Resistance(_)
             | Self::BodyForce(_)

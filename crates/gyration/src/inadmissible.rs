@@ -51,6 +51,9 @@ pub enum Quantity {
     /// How far a body of a lattice has come away from its start in its cell, beside the first body, which must be less
     /// than what the pairs across cells were listed for [m].
     Stray,
+    /// The least pivot of the equations of joints, which must be independent: a linkage is stretched out, or folded, to
+    /// where it is locked.
+    Joints,
     /// det P, which must be > 0: the body is not turned inside out.
     Volume,
     /// det G, which must be > 0: the relaxed body has a volume.

@@ -20,6 +20,7 @@ pub mod homogeneous;
 pub mod immersion;
 mod inadmissible;
 pub mod instant;
+pub mod joint;
 pub mod kinematics;
 pub mod lattice;
 pub mod ledger;

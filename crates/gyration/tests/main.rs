@@ -15,6 +15,7 @@ mod deformed_moments;
 mod deformed_relations;
 mod facet_moments;
 mod guides;
+mod joints;
 mod mass;
 mod materials;
 mod moving;

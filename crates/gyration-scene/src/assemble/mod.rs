@@ -13,6 +13,8 @@ mod contractile;
 mod fluid;
 mod guide;
 mod images;
+mod joint;
+mod joint_start;
 mod kind;
 mod lattice;
 mod mass;
@@ -47,6 +49,7 @@ use body::AssembledBody;
 use gyration::body::Body;
 use gyration::contact::Contact;
 use gyration::fluid::{Fluid, Form};
+use gyration::joint::Joint;
 use gyration::kinematics::Placement;
 use gyration::lattice::Lattice;
 use gyration::load::{Bond, Interaction, Party, Spring};
@@ -211,6 +214,7 @@ pub(crate) fn assemble(
     let of_cell = cells.as_ref().and_then(Option::as_ref);
     let springs: Vec<Spring> = anchored.chain(spring::springs(partial, &assembled, of_cell, reporter)).collect();
     let bonds = bond::bonds(partial, &assembled, of_cell, context, reporter);
+    let joints = joint::joints(partial, &assembled, reporter);
     let mut met: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); assembled.len()];
     contacts.iter().for_each(|contact| _ = met[contact.body].insert(contact.support));
     for body in &mut partial.bodies {
@@ -219,6 +223,7 @@ pub(crate) fn assemble(
             resolve::resolve(&mut body.value, &assembled_body.start);
         }
     }
+    joint::give_sizes(&mut assembled, &joints);
     give_sizes(&mut assembled, (&springs, &bonds), of_cell);
     let mut waves = None;
     if let Some(cells) = of_cell {
@@ -246,6 +251,7 @@ pub(crate) fn assemble(
         contacts,
         springs,
         bonds,
+        joints: joints.iter().map(|placed| placed.joint.clone()).collect(),
         rules,
         images: None,
         lattice: Lattice::default(),
@@ -264,10 +270,16 @@ pub(crate) fn assemble(
         }
         _ => None,
     };
-    let (model, state) = match &cells {
+    let (model, mut state) = match &cells {
         None => parts.built()?,
         Some(cells) => parts.repeated(cells, &rule_keys, reporter).built()?,
     };
+    if !joints.is_empty() {
+        joint_start::check_start(&model, &mut state, &joints, reporter);
+        if !reporter.diagnostics.is_empty() {
+            return None;
+        }
+    }
     let record = partial.record.as_ref().map(Record::new).unwrap_or_default();
     let copies = cells.as_ref().map_or(1, Cells::count);
     let written = partial.bodies.iter().flat_map(|written| std::iter::repeat_n(written, copies));
@@ -312,6 +324,7 @@ struct Parts {
     contacts: Vec<Contact>,
     springs: Vec<Spring>,
     bonds: Vec<Bond>,
+    joints: Vec<Joint>,
     rules: Vec<PairRule>,
     images: Option<ImagePairs>,
     lattice: Lattice,
@@ -346,6 +359,7 @@ impl Parts {
             model = model.in_fluid(fluid?);
         }
         let model = model.with_contacts(self.contacts).with_springs(self.springs).with_bonds(self.bonds);
+        let model = if self.joints.is_empty() { model } else { model.with_joints(self.joints) };
         let model = match self.images {
             None => model.meeting(self.rules),
             Some(images) => model.meeting_images(self.rules, images),

@@ -4,11 +4,13 @@
 //! walk. Each section, support, contact and body that passes is deserialized into a [`PartialScene`] and goes on to
 //! `values` and to `assemble`, so that a misspelt key in one body does not hide a missing support of another.
 
+mod joints;
 mod partial;
 mod rule;
 mod structure;
 mod values;
 
+pub(crate) use joints::SPACE;
 pub(crate) use partial::{PartialScene, Placed};
 pub(crate) use rule::{RULES, Rules};
 pub(crate) use structure::structure;

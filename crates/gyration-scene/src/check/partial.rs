@@ -2,7 +2,7 @@
 
 use crate::document::{Diagnostics, Document};
 use crate::file::{
-    Body, Bond, Contact, Fluid, Lattice, Record, SceneFile, Solver, SpringBetween, Support, Time, World,
+    Body, Bond, Contact, Fluid, Joint, Lattice, Record, SceneFile, Solver, SpringBetween, Support, Time, World,
 };
 use crate::key::Key;
 use crate::quantity::AnyQuantity;
@@ -57,6 +57,7 @@ pub(crate) struct PartialScene {
     pub(crate) roll: Vec<BodyWords>,
     pub(crate) springs: Vec<Placed<SpringBetween>>,
     pub(crate) bonds: Vec<Placed<Bond>>,
+    pub(crate) joints: Vec<Placed<Joint>>,
     pub(crate) lattice: Option<Lattice>,
     pub(crate) fluid: Option<Fluid>,
     /// Constants of expressions; none if one of them is not well formed.
@@ -80,6 +81,7 @@ impl PartialScene {
             roll: document.root.get("body").map(Node::items).unwrap_or_default().iter().map(BodyWords::of).collect(),
             springs: taker.items("spring"),
             bonds: taker.items("bond"),
+            joints: taker.items("joint"),
             lattice: taker.section("lattice"),
             fluid: taker.section("fluid"),
             constants: match document.root.get("constants") {
@@ -101,6 +103,7 @@ impl PartialScene {
             contact: self.contacts.into_iter().map(|placed| placed.value).collect(),
             body: self.bodies.into_iter().map(|placed| placed.value).collect(),
             bond: self.bonds.into_iter().map(|placed| placed.value).collect(),
+            joint: self.joints.into_iter().map(|placed| placed.value).collect(),
             spring: self.springs.into_iter().map(|placed| placed.value).collect(),
             lattice: self.lattice,
             fluid: self.fluid,

@@ -3,6 +3,7 @@
 //!
 //! Bodies are checked where they are built.
 
+use super::joints;
 use super::partial::BodyWords;
 use super::{PartialScene, Placed, Reporter};
 use crate::file::{Contact, Motion, Record, Support, Time};
@@ -29,12 +30,14 @@ pub(crate) fn values(partial: &PartialScene, reporter: &mut Reporter<'_>) {
     references("body", &bodies, reporter);
     ends("spring", &bodies, reporter);
     ends("bond", &bodies, reporter);
+    Named::of("joint", reporter);
+    joints::ends(&supports, &bodies, reporter);
     partners(&supports, &bodies, &partial.roll, reporter);
     partial.contacts.iter().for_each(|contact| exponents(contact, reporter));
 }
 
 /// The names of an array of tables, well formed or not.
-struct Named {
+pub(super) struct Named {
     names: BTreeSet<String>,
     /// Whether each of them has one: a name that cannot be read may be any.
     are_known: bool,
@@ -65,12 +68,17 @@ impl Named {
         named
     }
 
+    /// Whether one has this name.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.names.contains(name)
+    }
+
     /// Whether nothing has this name.
-    fn lacks(&self, name: &str) -> bool {
+    pub(super) fn lacks(&self, name: &str) -> bool {
         self.are_known && !self.names.contains(name)
     }
 
-    fn iter(&self) -> impl Iterator<Item = &str> + Clone {
+    pub(super) fn iter(&self) -> impl Iterator<Item = &str> + Clone {
         self.names.iter().map(String::as_str)
     }
 }

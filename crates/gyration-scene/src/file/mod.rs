@@ -10,6 +10,7 @@ mod bond;
 mod contact;
 mod contractile;
 mod fluid;
+mod joint;
 mod keep;
 mod lattice;
 mod material;
@@ -29,6 +30,7 @@ pub use bond::{Bond, BondDamping};
 pub use contact::{Adhesion, Contact, Friction, Measure, Reach, Repulsion, Resistance};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
 pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
+pub use joint::{Joint, JointWord};
 pub use keep::Keep;
 pub use lattice::{
     AbsorbingEnds, BranchNumber, CellCount, CellOffset, Lattice, LatticeWave, RandomWaves, Relaxed, Seed,
@@ -89,6 +91,9 @@ pub struct SceneFile {
     /// Bonds between points of two bodies.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub bond: Vec<Bond>,
+    /// Joints between two bodies, or a body and space.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub joint: Vec<Joint>,
     /// The lattice of whose cells each holds these bodies; none if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lattice: Option<Lattice>,

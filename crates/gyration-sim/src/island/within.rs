@@ -2,6 +2,7 @@
 
 use crate::island::Island;
 use crate::projection::project;
+use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{ExtendedMut, Integrator};
@@ -9,19 +10,20 @@ use gyration_ode::{ExtendedMut, Integrator};
 impl Island {
     /// Samples the state at a time within the last step, or after it.
     pub fn sample(&mut self, time: f64) {
-        sample(&self.integrator, self.system.model(), time, &mut self.sampled);
+        let (model, workspace) = self.system.observed();
+        sample(&self.integrator, (model, workspace), time, &mut self.sampled);
     }
 
     /// The state at a time within the last step, or after it.
     pub fn state_at(&self, time: f64) -> State {
         let mut state = self.sampled.clone();
-        sample(&self.integrator, self.model(), time, &mut state);
+        sample(&self.integrator, (self.model(), &mut Workspace::default()), time, &mut state);
         state
     }
 }
 
 /// The state at a time within the last step, or after it.
-fn sample(integrator: &Integrator, model: &Model, time: f64, sampled: &mut State) {
+fn sample(integrator: &Integrator, (model, workspace): (&Model, &mut Workspace), time: f64, sampled: &mut State) {
     let State { time: at, bodies, low, works } = sampled;
     *at = time;
     if time >= integrator.time() {
@@ -32,5 +34,5 @@ fn sample(integrator: &Integrator, model: &Model, time: f64, sampled: &mut State
     }
     integrator.interpolate_extended(time, bodies, works, Some(low));
     // Between the ends of a step the interpolant is off its manifold by its error.
-    project(model, time, ExtendedMut { high: bodies, low }, works);
+    project(model, workspace, time, ExtendedMut { high: bodies, low }, works);
 }

@@ -120,6 +120,9 @@ pub enum NoRest {
          history = false to leave that out"
     )]
     Remembered,
+    /// Joints hold it.
+    #[error("a joint holds the body: this version has no rest states and modes of joined bodies")]
+    Jointed,
     /// Other bodies act on it.
     #[error("others act on the body: `gyration modes` looks for the rest that they have together")]
     ActedOn,
@@ -221,6 +224,9 @@ pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
 pub fn system_rest(model: &Model, start: &State, members: &[usize]) -> Result<Vec<Rest>, NoRest> {
     if members.iter().any(|body| model.bodies[*body].history().is_some()) {
         return Err(NoRest::Remembered);
+    }
+    if members.iter().any(|body| model.joints_of(*body).next().is_some()) {
+        return Err(NoRest::Jointed);
     }
     let mut frozen = FrozenSystem::new(model, start, members, FrozenContraction::Held);
     let held = match equilibrium::find(&mut frozen) {

@@ -1,11 +1,12 @@
 //! What a recording of a model holds: the arrays of a row, their units, and the columns of the CSV.
 //!
-//! Columns stand in the order of the contract: for each body x, P, v, Ṗ, G, pressure, gap, force; then energies, works,
-//! residual.
+//! Columns stand in the order of the contract: for each body x, P, v, Ṗ, G, pressure, gap, force; those of each joint;
+//! then energies, works, residual.
 
 mod extra_fields;
 mod extras;
 mod fields;
+mod joint_fields;
 
 pub use extras::Extras;
 
@@ -17,7 +18,9 @@ use fields::{
 use gyration::Inadmissible;
 use gyration::balance::{BodyObservation, energies, energies_at, observe_at};
 use gyration::body::Body;
-use gyration::dynamics::{ContactParts, LoadsByKind, Workspace, acting, contact_parts, loads_by_kind, reaction};
+use gyration::dynamics::{
+    ContactParts, JointObservation, LoadsByKind, Workspace, acting, contact_parts, loads_by_kind, reaction,
+};
 use gyration::homogeneous::{HomogeneousObservation, observe_homogeneous};
 use gyration::immersion::{ImmersionObservation, observe_immersion};
 use gyration::load::Loads;
@@ -53,6 +56,7 @@ pub struct RowScratch {
     loads: Vec<LoadsByKind>,
     reactions: Vec<Option<Reaction>>,
     immersed: Vec<Option<ImmersionObservation>>,
+    joints: Vec<JointObservation>,
     /// The row last filled, flattened in the order of [`Fields::arrays`].
     pub row: Vec<f64>,
 }
@@ -80,6 +84,8 @@ impl Fields {
                 order.extend(columns(model, field, index).into_iter().filter(|column| !column.is_empty()));
             }
         }
+        arrays.extend(joint_fields::arrays(model));
+        order.extend(joint_fields::columns(model));
         for (name, column, description) in ledger_entries(model) {
             order.push(column.clone());
             arrays.push(ArraySpec { name, dims: Vec::new(), units: "J".into(), description, columns: vec![column] });
@@ -99,7 +105,7 @@ impl Fields {
         initial: Option<f64>,
         scratch: &mut RowScratch,
     ) -> Result<Audit, Inadmissible> {
-        let RowScratch { bodies, homogeneous, contacts, loads, reactions, immersed, row } = scratch;
+        let RowScratch { bodies, homogeneous, contacts, loads, reactions, immersed, joints, row } = scratch;
         bodies.clear();
         homogeneous.clear();
         contacts.clear();
@@ -150,6 +156,7 @@ impl Fields {
                 }
             }
         }
+        joint_fields::fill(&instant, scratch, joints, row);
         let ledger = row.len();
         row.resize(ledger + model.energies().len(), 0.0);
         energies_at(&instant, scratch, &mut row[ledger..])?;

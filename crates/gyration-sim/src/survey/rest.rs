@@ -271,6 +271,8 @@ fn held_otherwise(model: &Model, index: usize) -> Option<&'static str> {
         Some("a pin holds the body as well")
     } else if body.guide.is_some() {
         Some("a constraint, `keep`, holds the body as well")
+    } else if model.joints_of(index).next().is_some() {
+        Some("a joint holds the body as well")
     } else if model.meets_bodies(index) {
         Some("other bodies meet it as well")
     } else if model.springs_of(index).any(|end| end.other() == Party::Space) || model.is_joined(index) {

@@ -7,4 +7,4 @@ mod fluid;
 mod impacts;
 mod meaningless;
 mod samples;
-mod support;
+pub mod support;

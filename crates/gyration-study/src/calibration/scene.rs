@@ -49,6 +49,10 @@ impl Calibration {
 pub(super) fn body(model: &Model, experiment: &Experiment) -> Result<usize, String> {
     let found = model.find_body(&experiment.body);
     let found = found.ok_or_else(|| format!("there is no body `{}`", experiment.body))?;
+    if let Some(end) = model.joints_of(found).next() {
+        let (name, joint) = (&experiment.body, &end.interaction.name);
+        return Err(format!("the joint `{joint}` holds the body `{name}`: what is measured of it would be of both"));
+    }
     if model.is_joined(found) {
         let name = &experiment.body;
         return Err(format!(

@@ -56,6 +56,7 @@ pub fn contact_parts(at: &BodyAt, scratch: &mut Scratch) -> Result<ContactParts,
             }
             Load::Spring(_)
             | Load::Bond(_)
+            | Load::Joint(_)
             | Load::Couple(_)
             | Load::Applied(_)
             | Load::Resistance(_)

@@ -80,6 +80,11 @@ impl Acting {
                 self.contact += *pair.on_body();
                 self.total += *pair.on_body();
             }
+            Load::Joint(end) => {
+                let loads = at.joint(end).on[end.end];
+                self.powers[Work::Constraint] += loads.power(&velocity.velocity, &velocity.gradient_rate);
+                self.total += loads;
+            }
             Load::Couple(couple) => {
                 let moment = couple.moment(at.time, &at.inverse());
                 self.powers[Work::Load] += moment.dot(&velocity.gradient_rate);
@@ -172,6 +177,11 @@ pub(super) fn add_slopes(
                 slopes.by_rate += by_rate[own][own];
             }
         }
+        Load::Joint(end) => {
+            let loads = at.joint(end);
+            slopes.loads += loads.on[end.end];
+            slopes.by_place += end.interaction.slope(loads, [end.end, end.end]);
+        }
         Load::Couple(couple) => {
             let inverse = at.inverse();
             slopes.add_couple(&couple.moment(at.time, &inverse), &inverse);
@@ -234,6 +244,7 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                 Load::Spring(_)
                 | Load::Bond(_)
                 | Load::Pair(_)
+                | Load::Joint(_)
                 | Load::Couple(_)
                 | Load::Applied(_)
                 | Load::Resistance(_)

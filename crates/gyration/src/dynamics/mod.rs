@@ -3,7 +3,7 @@
 //! `rates` is the file to read first. `loads` is the one loop over what acts on a body; `rigid`, `affine` and
 //! `contractile` solve the balance of each kind, `history` that of a sphere whose past motion the fluid feels,
 //! `body_rates` that of any body, `guided` and `reaction` what a guide makes of it; `jacobian` differentiates it;
-//! `inertialess` stands above both, and `rates` over all.
+//! `inertialess` stands above both, `joints` above these, and `rates` over all.
 
 mod affine;
 mod body_rates;
@@ -18,6 +18,7 @@ mod history_reaction;
 mod immersed;
 mod inertialess;
 mod jacobian;
+mod joints;
 mod loads;
 mod powers;
 mod pushes;
@@ -30,6 +31,7 @@ pub use contact_parts::{ContactParts, contact_parts};
 pub use contacts::{gap_to_supports, nearest};
 pub use gaps::gap_at;
 pub use jacobian::{Blocks, Coupling, Lift, Lower};
+pub use joints::{DependentJoint, Held, JointMisfit, JointObservation, observe_joint};
 pub use loads::{Acting, acting, stored_energy};
 pub use pushes::{Push, each_push};
 pub use rates::{jacobian, rates};
@@ -70,6 +72,7 @@ pub struct Scratch {
     /// The Jacobians that bodies without inertia would have with it, by their number of rows.
     matrices: Vec<DMatrix<f64>>,
     balances: inertialess::Balances,
+    joints: joints::JointEquations,
     numbers: Vec<f64>,
 }
 
@@ -101,6 +104,7 @@ impl Workspace {
         let Self { instants, scratch } = self;
         let mut instant = instants.read(model, state.time, state.numbers())?;
         inertialess::solve(&mut instant, scratch)?;
+        joints::solve(&mut instant, scratch)?;
         Ok((instant, scratch))
     }
 

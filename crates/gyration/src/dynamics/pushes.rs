@@ -69,7 +69,9 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
                 let force = loads.map_err(undefined(at, FormulaOf::BodyForce))?.force.norm();
                 each(Push { force, gap: at.body.size, rounding: 0.0 });
             }
-            Load::Couple(_)
+            // Its force does no work.
+            Load::Joint(_)
+            | Load::Couple(_)
             | Load::Applied(_)
             | Load::Resistance(_)
             | Load::OwnFriction(_)

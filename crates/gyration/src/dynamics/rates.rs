@@ -6,13 +6,13 @@
 //!   I Ω̇ = τ − Ω × IΩ                      τ = ∫_∂D X × Rᵀq dA          (rigid, body axes)
 //!
 //! instant → loads → balance solved for the rates, body by body, and the powers whose integrals are the works of the
-//! ledger. A body without inertia takes the velocities at which all of this is in balance (`inertialess`). A pinned
+//! ledger. Joints exert the forces that keep their bodies together (`joints`). A body without inertia takes the velocities at which all of this is in balance (`inertialess`). A pinned
 //! body takes everything about its pin, r = X_p − X₀: τ_p = τ − r × Rᵀ(f + m g), M_p = M − (f + m g) ⊗ r. Source:
 //! `docs/theory-rigid.md`, `docs/theory-affine.md`, `docs/theory-contractile.md`.
 
 use super::body_rates::body_rates;
 use super::jacobian::{Blocks, add_interactions, body_jacobian};
-use super::{Workspace, inertialess};
+use super::{Workspace, inertialess, joints};
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
@@ -34,6 +34,7 @@ pub fn rates(
     let Workspace { instants, scratch } = workspace;
     let mut instant = instants.read(model, time, state)?;
     inertialess::solve(&mut instant, scratch)?;
+    joints::solve(&mut instant, scratch)?;
     powers.fill(0.0);
     for index in 0..model.bodies.len() {
         let at = instant.at(index);
@@ -64,8 +65,12 @@ pub fn jacobian(
     let Workspace { instants, scratch } = workspace;
     let mut instant = instants.differentiate(model, time, state)?;
     inertialess::solve(&mut instant, scratch)?;
+    joints::solve(&mut instant, scratch)?;
+    let mut equations = std::mem::take(&mut scratch.joints);
     let joins = inertialess::joins(&instant, scratch);
-    blocks.arrange(&mut instant.joins().chain(joins.iter().copied()));
+    let through = equations.joins(&instant, joins);
+    blocks.arrange(&mut instant.joins().chain(joins.iter().copied()).chain(through.iter().copied()));
+    scratch.joints = equations;
     for index in (0..model.bodies.len()).filter(|body| model.bodies[*body].has_inertia()) {
         let Some(matrix) = blocks.block(index, index) else { continue };
         let at = instant.at(index);
@@ -76,5 +81,7 @@ pub fn jacobian(
             }
         });
     }
-    inertialess::add_jacobian(&instant, scratch, blocks)
+    inertialess::add_jacobian(&instant, scratch, blocks)?;
+    joints::add_jacobian(&instant, scratch, blocks);
+    Ok(())
 }

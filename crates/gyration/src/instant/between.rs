@@ -5,6 +5,7 @@ use super::motions::{MotionAt, Motions};
 use super::slabs::{PairGaps, Remembered};
 use crate::acting::{PairAt, PairEnd};
 use crate::inadmissible::{FormulaOf, Inadmissible, Quantity};
+use crate::joint::JointLoads;
 use crate::load::{BondFault, BondLoads, BondPlace, BondSlopes, Interaction, SpringLoads};
 use crate::model::{Model, PATIENCE};
 use crate::neighbours::Pair;
@@ -28,6 +29,8 @@ pub(super) struct Between {
     /// The derivatives of that; empty where they were not asked for.
     bond_slopes: Vec<BondSlopes>,
     formulas: FormulaScratch,
+    /// What the joints of the model do, in their order; nothing until that is solved.
+    joints: Vec<JointLoads>,
 }
 
 /// Whoever looks at the pairs of an instant, one after the other.
@@ -75,6 +78,16 @@ impl Between {
     /// The derivatives of what a bond does.
     pub fn bond_slopes(&self, number: usize) -> &BondSlopes {
         &self.bond_slopes[number]
+    }
+
+    /// What a joint of the model does.
+    pub fn joint(&self, number: usize) -> &JointLoads {
+        &self.joints[number]
+    }
+
+    /// Tells what a joint of the model does.
+    pub fn set_joint(&mut self, number: usize, loads: JointLoads) {
+        self.joints[number] = loads;
     }
 
     /// Finds what the bonds of an instant do.
@@ -128,6 +141,8 @@ impl Between {
     pub fn find(&mut self, looking: &mut Looking) -> Result<(), Inadmissible> {
         self.find_springs(looking)?;
         self.find_bonds(looking)?;
+        self.joints.clear();
+        self.joints.resize(looking.model.joints().len(), JointLoads::default());
         let Self { loads, slopes, sloped, .. } = self;
         loads.clear();
         sloped.clear();

@@ -23,13 +23,14 @@ use crate::acting::{Load, PairAt, PairEnd};
 use crate::body::Slots;
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
+use crate::joint::{JointEnd, JointLoads};
 use crate::lattice::{Cell, HERE};
 use crate::load::{BondEnd, BondLoads, BondSlopes, SpringEnd, SpringLoads};
 use crate::model::Model;
 use crate::pair::PairScratch;
 use crate::tensor::Vec3;
 use between::{Between, Looking, Wanted};
-use motions::Motions;
+pub(crate) use motions::Motions;
 use slabs::Remembered;
 use std::ops::Deref;
 
@@ -85,6 +86,15 @@ impl Instants {
         self.motions.read(model, time, state)?;
         let Self { motions, between, remembered, room, .. } = self;
         Instant { model, motions, between, remembered, room, wanted: Wanted::Slopes }.found()
+    }
+
+    /// How the bodies move in a state, those without inertia taken to be still; not what is between them.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0.
+    pub fn motions(&mut self, model: &Model, time: f64, state: Numbers) -> Result<&Motions, Inadmissible> {
+        self.motions.read(model, time, state)?;
+        Ok(&self.motions)
     }
 
     /// The slab between the bodies of each listed pair; infinite where they are out of reach. Bodies without inertia
@@ -197,9 +207,11 @@ impl Instant<'_> {
     pub(crate) fn partners(&self, body: usize) -> impl Iterator<Item = usize> {
         let springs = self.model.springs_of(body).filter_map(|end| end.other().body());
         let bonds = self.model.bonds_of(body).map(|end| end.other_body());
+        let joints = self.model.joints_of(body).filter_map(|end| end.other().body());
         // A body is beside its own images, which say nothing of another.
         springs
             .chain(bonds)
+            .chain(joints)
             .filter(move |other| *other != body)
             .chain(self.at(body).pairs().filter(|pair| pair.acts()).map(|pair| pair.other()))
     }
@@ -215,6 +227,21 @@ impl Instant<'_> {
         let pairs = bodies.flat_map(|body| self.at(body).pairs().filter(|pair| pair.end.counts()));
         let pairs = pairs.map(|pair| (pair.end.interaction.cell, pair.on_body().force));
         springs.chain(bonds).chain(pairs).filter(|(cell, _)| *cell != HERE).collect()
+    }
+
+    /// Tells what a joint of the model does.
+    pub(crate) fn set_joint(&mut self, number: usize, loads: JointLoads) {
+        self.between.set_joint(number, loads);
+    }
+
+    /// What a joint of the model does.
+    pub(crate) fn joint(&self, number: usize) -> &JointLoads {
+        self.between.joint(number)
+    }
+
+    /// How the bodies move.
+    pub(crate) fn motions(&self) -> &Motions {
+        self.motions
     }
 
     /// The numbers that were read.
@@ -261,7 +288,12 @@ impl<'a> BodyAt<'a> {
         self.between.bond(end.number)
     }
 
-    /// The same by its number.
+    /// What a joint of the model does.
+    pub(crate) fn joint(&self, end: &JointEnd) -> &'a JointLoads {
+        self.between.joint(end.number)
+    }
+
+    /// What a bond of this number does.
     pub fn bond_loads(&self, number: usize) -> &'a BondLoads {
         self.between.bond(number)
     }

@@ -270,6 +270,15 @@ impl<'a> MotionAt<'a> {
         Vec3::from_fn(|i, _| (self.numbers.at(own + i) - self.numbers.at(there + i)).value())
     }
 
+    /// The place of a point of space from its centre of mass [m], to all the digits of the state.
+    pub(crate) fn to_place(&self, place: &Vec3) -> Vec3 {
+        if self.body.pin.is_some() {
+            return place - self.motion.placement.position;
+        }
+        let start = self.model.slots(self.index).position().start;
+        self.numbers.behind(&[0, 1, 2].map(|i| Extended::from(place[i])), start)
+    }
+
     /// The place of the image of another body in a cell, from that of this one [m].
     #[inline]
     pub(crate) fn apart(&self, other: &Self, cell: Cell) -> Vec3 {

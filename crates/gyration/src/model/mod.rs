@@ -10,9 +10,10 @@ use crate::acting::{Interacting, Load, PairAt};
 use crate::body::{Body, Slots};
 use crate::contact::Contact;
 use crate::fluid::Fluid;
+use crate::joint::{Joint, JointEnd, JointGraph};
 use crate::lattice::Lattice;
 use crate::ledger::{Energy, Work};
-use crate::load::{Applied, Bond, BondEnd, Interactions, Spring, SpringEnd};
+use crate::load::{Applied, Bond, BondEnd, Interaction, Interactions, Party, Spring, SpringEnd};
 use crate::neighbours::{ImagePairs, Pair, PairRule, PairRules};
 use crate::support::Support;
 use crate::tensor::Vec3;
@@ -41,6 +42,9 @@ pub struct Model {
     contacts: Interactions<Contact>,
     springs: Interactions<Spring>,
     bonds: Interactions<Bond>,
+    joints: Interactions<Joint>,
+    /// Who hangs together through joints; none without any.
+    joint_graph: Option<Arc<JointGraph>>,
     rules: PairRules,
     /// The pairs across cells; none where no bodies of a lattice meet.
     images: Option<ImagePairs>,
@@ -89,6 +93,8 @@ impl Model {
             contacts,
             springs,
             bonds,
+            joints: Interactions::default(),
+            joint_graph: None,
             rules,
             images: None,
             pairs: [0, 0],
@@ -233,6 +239,23 @@ impl Model {
         self.with_ledger()
     }
 
+    /// The model with joints, to space or between its bodies.
+    ///
+    /// To be called when all bodies are what they are to be.
+    ///
+    /// # Panics
+    /// If the first party of a joint is no body of the model, or the second neither another body nor space, or one has
+    /// no inertia.
+    #[must_use]
+    pub fn with_joints(mut self, joints: Vec<Joint>) -> Self {
+        let moves = |body: &usize| self.bodies[*body].has_inertia();
+        let bodies = joints.iter().flat_map(|joint| joint.parties().into_iter().filter_map(Party::body));
+        assert!(bodies.collect::<Vec<_>>().iter().all(moves), "bodies with joints have inertia");
+        self.joint_graph = JointGraph::of(&joints).map(Arc::new);
+        self.joints = Interactions::new(self.bodies.len(), joints);
+        self.with_ledger()
+    }
+
     /// The model with bodies that meet.
     ///
     /// To be called when all bodies are what they are to be.
@@ -301,6 +324,8 @@ impl Model {
             contacts: self.contacts.among(members, Contact::of_parties),
             springs: self.springs.among(members, Spring::of_parties),
             bonds: self.bonds.among(members, Bond::of_parties),
+            joints: self.joints.among(members, Joint::of_parties),
+            joint_graph: None,
             rules: match self.images {
                 None => self.rules.among(members),
                 Some(_) => self.rules.of_images(members),
@@ -314,6 +339,7 @@ impl Model {
             given_up: self.given_up,
         };
         part.pairs = part.rules.count(&part.bodies);
+        part.joint_graph = JointGraph::of(part.joints()).map(Arc::new);
         part.enter_ledger();
         part
     }
@@ -343,9 +369,26 @@ impl Model {
         self.bonds.of(body)
     }
 
-    /// The pairs of bodies that springs and bonds join.
+    /// Its joints.
+    pub fn joints(&self) -> &[Joint] {
+        self.joints.all()
+    }
+
+    /// Those of a body, in order.
+    pub fn joints_of(&self, body: usize) -> impl Iterator<Item = JointEnd<'_>> + Clone {
+        self.joints.of(body)
+    }
+
+    /// Who hangs together through joints; none without any.
+    pub fn joint_graph(&self) -> Option<&Arc<JointGraph>> {
+        self.joint_graph.as_ref()
+    }
+
+    /// The pairs of bodies that springs, bonds and joints join.
     pub fn joined(&self) -> impl Iterator<Item = [usize; 2]> {
-        self.springs().iter().filter_map(Spring::bodies).chain(self.bonds().iter().map(|bond| bond.bodies))
+        let springs = self.springs().iter().filter_map(Spring::bodies);
+        let bonds = self.bonds().iter().map(|bond| bond.bodies);
+        springs.chain(bonds).chain(self.joints().iter().filter_map(Joint::bodies))
     }
 
     /// Who of its bodies meets whom.
@@ -388,7 +431,8 @@ impl Model {
     /// Whether other bodies act on a body; springs without stiffness and damping do not.
     pub fn is_joined(&self, body: usize) -> bool {
         let acts = |end: SpringEnd| end.other().body().is_some() && end.interaction.law.acts();
-        self.springs.of(body).any(acts) || self.bonds.of(body).next().is_some() || self.meets_bodies(body)
+        let is_linked = self.joints.of(body).any(|end| end.other().body().is_some());
+        self.springs.of(body).any(acts) || self.bonds.of(body).next().is_some() || is_linked || self.meets_bodies(body)
     }
 
     /// Hands what acts on a body beside those that it meets to `each`, in the order in which it is summed; stops at the
@@ -408,7 +452,8 @@ impl Model {
     ) -> Result<(), E> {
         let (body, fluid) = (&self.bodies[index], self.fluid.as_deref());
         let (contacts, springs, bonds) = (self.contacts_of(index), self.springs_of(index), self.bonds_of(index));
-        Load::try_each(body, Interacting { contacts, springs, bonds, pairs }, fluid, self.applied(index), each)
+        let joints = self.joints_of(index);
+        Load::try_each(body, Interacting { contacts, springs, bonds, pairs, joints }, fluid, self.applied(index), each)
     }
 
     /// Whether loads may be applied to its bodies.

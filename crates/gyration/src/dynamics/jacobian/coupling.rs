@@ -131,6 +131,30 @@ impl Lift {
         Self { slots: Slots::of(at.body, 0), ..Self::of(at) }
     }
 
+    /// A of a change of the rates of (velocity, rate): that of q̈.
+    pub(in super::super) fn raised(&self, change: &Vec12) -> Vec12 {
+        image(&self.rate, change)
+    }
+
+    /// Aᵀ of (f | M): what it does along each of (velocity, rate).
+    pub(in super::super) fn lowered(&self, loads: &Vec12) -> Vec12 {
+        self.rate.tr_mul(loads)
+    }
+
+    /// The change of q and q̇ with a number of the block; none with one that is neither place nor velocity.
+    pub(in super::super) fn along(&self, number: usize) -> Option<[Vec12; 2]> {
+        let velocities = self.slots.velocities();
+        match number {
+            place if self.slots.places().contains(&place) => {
+                Some([self.place.column(place).into(), self.sway.column(place).into()])
+            }
+            velocity if velocities.contains(&velocity) => {
+                Some([Vec12::zeros(), self.rate.column(velocity - velocities.start).into()])
+            }
+            _ => None,
+        }
+    }
+
     /// Of a body at an instant, with velocities; its block begins at 0.
     pub fn of(at: &MotionAt) -> Self {
         let slots = Slots::with_inertia(at.body, 0);
@@ -173,6 +197,11 @@ impl Lower {
     pub(in super::super) fn add_to(&self, column: &mut DVectorViewMut<f64>, change: &Vec12) {
         let rows = self.slots.velocities();
         column.rows_mut(rows.start, rows.len()).iter_mut().zip(change.iter()).for_each(|(sum, part)| *sum += part);
+    }
+
+    /// B of (f | M): the change of the rates of (velocity, rate).
+    pub(in super::super) fn rates(&self, loads: &Vec12) -> Vec12 {
+        image(&self.map, loads)
     }
 
     /// Of a body at an instant; its block begins at 0.

@@ -35,6 +35,13 @@ pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usiz
                 let by_rate = slopes.by_rate.as_ref().map(|by_rate| by_rate[own][1 - own]);
                 ((pair.other(), pair.end.cell()), Coupling { by_place, by_rate })
             }
+            Load::Joint(end) => match end.other().body() {
+                Some(other) => {
+                    let by_place = end.interaction.slope(at.joint(&end), [end.end, 1 - end.end]);
+                    ((other, end.cell()), Coupling { by_place, by_rate: None })
+                }
+                None => return Ok(()),
+            },
             // What acts on one body alone.
             Load::Contact(_)
             | Load::Couple(_)

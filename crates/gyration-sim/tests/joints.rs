@@ -1,0 +1,114 @@
+//! Joined bodies in runs: what resumes, what depends on numbers, what both methods agree in.
+
+use crate::islands::parsed;
+use crate::resumption::resumes_after_every_window;
+use crate::sensitivities::support::{TIGHT, disagreement, strings};
+use gyration::dynamics::Workspace;
+use gyration_sim::{FirstSteps, Job, MemorySink, Provenance, Simulation, Unwatched};
+
+/// Two links, a rubber block on the lower and a ball on a spring, over a table.
+pub const ARM: &str = r#"
+    [time]
+    end = 0.5
+    sample = 0.05
+    [[support]]
+    name = "table"
+    plane = { origin = [0, 0, -0.52] }
+    [[contact]]
+    support = "table"
+    repulsion = { alpha = "245 Pa", nu = 6, d0 = "2 mm" }
+    damping = { beta = 1e3, nu = 3, d0 = "2 mm" }
+    friction = { beta = 1e3, nu = 3, d0 = "2 mm" }
+    [[body]]
+    name = "upper"
+    shape = { box = { size = [0.2, 0.04, 0.06] } }
+    density = 1000
+    position = [0.1, 0, 0]
+    [[body]]
+    name = "lower"
+    shape = { box = { size = [0.2, 0.06, 0.04] } }
+    density = 1000
+    position = [0.3, 0, 0]
+    [[body]]
+    name = "block"
+    shape = { box = { size = [0.1, 0.1, 0.08] } }
+    density = 1000
+    affine = { material = { neo_hookean_log = { lambda = "60 kPa", mu = "30 kPa" } }, viscosity = 20 }
+    position = [0.45, 0, 0]
+    [[body]]
+    name = "ball"
+    shape = { sphere = { radius = 0.04 } }
+    density = 1000
+    position = [0.1, 0.3, 0]
+    [[spring]]
+    between = ["upper", "ball"]
+    points = [[0.1, 0, 0], [0, 0, 0]]
+    stiffness = 30
+    [[joint]]
+    name = "shoulder"
+    between = ["space", "upper"]
+    kind = "hinge"
+    points = [[0, 0, 0], [-0.1, 0, 0]]
+    axis = [0, 1, 0.2]
+    [[joint]]
+    name = "elbow"
+    between = ["upper", "lower"]
+    kind = "ball"
+    points = [[0.1, 0, 0], [-0.1, 0, 0]]
+    [[joint]]
+    name = "wrist"
+    between = ["lower", "block"]
+    kind = "ball"
+    points = [[0.1, 0, 0], [-0.05, 0, 0]]
+"#;
+
+#[test]
+fn an_arm_resumes_after_every_window() {
+    resumes_after_every_window(&parsed(ARM, &[]), 200);
+    resumes_after_every_window(&parsed(ARM, &["solver.method=\"implicit\""]), 60);
+}
+
+#[test]
+fn both_methods_agree_on_an_arm_and_close_its_ledger() {
+    let end = |method: &str| {
+        let scene = parsed(ARM, &[&format!("solver.method=\"{method}\""), "solver.rtol=1e-9", "solver.atol=1e-12"]);
+        let job = Job::of(&scene, &Provenance { version: "test".into(), commit: None });
+        let mut simulation = Simulation::new(job.model, job.start, job.plan).unwrap();
+        let mut sink = MemorySink::default();
+        simulation.begin(&mut sink).unwrap();
+        simulation.run(&mut sink, &mut Unwatched).unwrap();
+        let relative = simulation.run_state().largest_residual / simulation.energy_in_play();
+        let misfits = Workspace::default().joint_misfits(job.model, &simulation.state()).unwrap();
+        println!("{method}: residual {relative:.1e}, {:?}, {misfits:?}", simulation.statistics());
+        assert!(relative < 1e-7, "{method}: {relative:e}");
+        assert!(misfits.iter().all(|misfit| misfit.place < 2e-16 && misfit.velocity < 1e-14), "{misfits:?}");
+        sink.rows.pop().unwrap().1
+    };
+    let [explicit, implicit] = ["explicit", "implicit"].map(end);
+    let apart = explicit.iter().zip(&implicit).take(12).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
+    assert!(apart < 1e-6, "places are apart by {apart:e} m");
+}
+
+#[test]
+fn an_isolated_linkage_keeps_its_momenta() {
+    let start = ARM.find("    [[support]]").unwrap();
+    let bodies = ARM.find("    [[body]]").unwrap();
+    let shoulder = ARM.find("    [[joint]]").unwrap();
+    let elbow = ARM[shoulder + 8..].find("    [[joint]]").unwrap() + shoulder + 8;
+    let text =
+        format!("world = {{ gravity = [0, 0, 0] }}\n{}{}{}", &ARM[..start], &ARM[bodies..shoulder], &ARM[elbow..]);
+    let scene = parsed(&text, &[]);
+    let FirstSteps { momenta, .. } =
+        FirstSteps::of(&Job::of(&scene, &Provenance { version: "test".into(), commit: None }), 100).unwrap();
+    let [linear, angular] = momenta.unwrap();
+    println!("momentum {linear:.1e}, angular {angular:.1e}");
+    assert!(linear < 1e-14 && angular < 1e-8);
+}
+
+#[test]
+fn derivatives_of_an_arm_agree_with_differences_of_runs() {
+    let keys = ["world.gravity.2", "body.lower.density", "spring.0.stiffness", "contact.0.repulsion.alpha"];
+    let quantities = ["lower.x", "lower.z", "block.P_xz", "ball.vz", "energy.kinetic", "joint.elbow.fz"];
+    let worst = disagreement(ARM, &strings(&TIGHT), &keys, &quantities, 1e-4);
+    assert!(worst < 1e-5, "{worst:e}");
+}
