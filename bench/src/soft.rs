@@ -105,7 +105,7 @@ fn cube(material: Material, laws: Vec<ContactLaw>, height: f64, gravity: Vec3) -
         pin: None,
     };
     let table =
-        Support { name: "table".into(), origin: Vec3::zeros(), normal: Vec3::z(), motion: SupportMotion::Fixed };
+        Support { name: "table".into(), origin: Vec3::zeros(), normal: Vec3::z(), motion: SupportMotion::default() };
     let model = Model::new(gravity, vec![table], vec![body]).with_contacts(contacts);
     let start = Start::Affine(
         Placement { position: Vec3::new(0.0, 0.0, height), gradient },

@@ -65,8 +65,12 @@ impl FacetBody {
             guide: None,
             size: side,
         };
-        let plane =
-            Support { name: "plane".into(), origin: Vec3::zeros(), normal: Vec3::z(), motion: SupportMotion::Fixed };
+        let plane = Support {
+            name: "plane".into(),
+            origin: Vec3::zeros(),
+            normal: Vec3::z(),
+            motion: SupportMotion::default(),
+        };
         let model = Model::new(Vec3::new(0.0, 0.0, -self.gravity), vec![plane], vec![body]).named(["facet"]);
         let model =
             model.with_contacts(vec![Contact::new(0, 0, LawSet::new(AreaMeasure::default(), self.laws.clone()))]);

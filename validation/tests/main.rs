@@ -28,6 +28,7 @@ mod case_slopes;
 mod case_small_gaps;
 mod case_soft_audits;
 mod case_soft_tumbling_box;
+mod case_solid_supports;
 mod case_strong_lattices;
 mod case_tumbling_box;
 mod case_waves;

@@ -5,7 +5,7 @@ use crate::classes::BodyClasses;
 use crate::draw::Point;
 use crate::error::PlotError;
 use crate::thin::Thinner;
-use gyration::support::{Support, SupportMotion};
+use gyration::support::{MotionPart, Support, SupportMotion};
 use gyration::tensor::{Mat3, Vec3};
 use gyration_record::Recording;
 use gyration_record::export::bodies_with_outlines;
@@ -83,21 +83,47 @@ struct SupportPicture {
 }
 
 #[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(untagged)]
 enum MotionPicture {
+    One(MotionPartPicture),
+    Several(Vec<MotionPartPicture>),
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum MotionPartPicture {
     Velocity([f64; 3]),
     Oscillate { direction: [f64; 3], amplitude: f64, frequency: f64, phase: f64 },
+    Rotate { axis: [f64; 3], point: [f64; 3], rate: f64 },
+}
+
+impl From<MotionPartPicture> for MotionPart {
+    fn from(picture: MotionPartPicture) -> Self {
+        match picture {
+            MotionPartPicture::Velocity(velocity) => Self::Velocity(velocity.into()),
+            MotionPartPicture::Oscillate { direction, amplitude, frequency, phase } => {
+                Self::Oscillation { direction: direction.into(), amplitude, frequency, phase }
+            }
+            MotionPartPicture::Rotate { axis, point, rate } => {
+                Self::Rotation { axis: axis.into(), point: point.into(), rate }
+            }
+        }
+    }
+}
+
+/// The motion that a recording describes.
+fn motion(picture: Option<MotionPicture>) -> SupportMotion {
+    let parts = match picture {
+        None => Vec::new(),
+        Some(MotionPicture::One(part)) => vec![part],
+        Some(MotionPicture::Several(parts)) => parts,
+    };
+    SupportMotion::new(parts.into_iter().map(MotionPart::from).collect())
 }
 
 impl From<SupportPicture> for Support {
     fn from(picture: SupportPicture) -> Self {
-        let motion = match picture.motion {
-            None => SupportMotion::Fixed,
-            Some(MotionPicture::Velocity(velocity)) => SupportMotion::Velocity(velocity.into()),
-            Some(MotionPicture::Oscillate { direction, amplitude, frequency, phase }) => {
-                SupportMotion::Oscillation { direction: direction.into(), amplitude, frequency, phase }
-            }
-        };
+        let motion = motion(picture.motion);
         Self { name: picture.name, origin: picture.origin.into(), normal: picture.normal.into(), motion }
     }
 }

@@ -184,7 +184,9 @@ impl Scene {
     /// The names of the supports, in order.
     #[getter]
     fn supports(&self) -> Vec<String> {
-        self.inner.built().model.supports.iter().map(|support| support.name.clone()).collect()
+        let model = &self.inner.built().model;
+        let planes = model.supports.iter().map(|support| support.name.clone());
+        planes.chain(model.solid_supports.iter().map(|support| support.name.clone())).collect()
     }
 
     /// What can be said of the scene before it runs, as ``gyration check`` prints it: mass, rest gaps, time scales,

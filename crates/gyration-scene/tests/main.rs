@@ -18,4 +18,5 @@ mod meetings;
 mod own_forces;
 mod robust;
 mod scenes;
+mod solid_supports;
 mod together;

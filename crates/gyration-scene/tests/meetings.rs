@@ -35,7 +35,7 @@ fn groups_and_names_say_who_meets_whom() {
     let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
     assert_resolves_to_itself(&scene);
     let model = &scene.built().model;
-    let found: Vec<_> = model.pairs().map(|pair| (pair.bodies, pair.form.reach)).collect();
+    let found: Vec<_> = model.pairs().map(|pair| (pair.bodies().unwrap(), pair.form.reach)).collect();
     let near = Some(0.05);
     let wanted = [([1, 2], None), ([1, 3], None), ([2, 3], None), ([0, 1], near), ([0, 2], near), ([0, 3], near)];
     assert_eq!(found, wanted);

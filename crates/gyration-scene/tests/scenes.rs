@@ -1,7 +1,7 @@
 //! What a scene becomes: gallery, defaults, units, JSON, resolved form, overrides, model and first state.
 
 use gyration::body::BodyKind;
-use gyration::support::SupportMotion;
+use gyration::support::MotionPart;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::{LoadError, Method, ReadError, Scene, SceneErrors, StopAtRest, gallery, schema};
 use std::fs;
@@ -74,7 +74,9 @@ fn the_example_of_the_contract_builds_as_it_says() {
     assert_eq!(plan.stop_at_rest, Some(StopAtRest { speed: 1e-4, hold: 0.05 }));
     let support = &built.model.supports[0];
     assert_eq!(support.normal, Vec3::z());
-    let SupportMotion::Oscillation { direction, amplitude, frequency, phase } = support.motion else { panic!() };
+    let [MotionPart::Oscillation { direction, amplitude, frequency, phase }] = *support.motion.parts() else {
+        panic!()
+    };
     assert_eq!((direction, amplitude, frequency), (Vec3::z(), 1e-3, 5.0));
     assert!(close(phase, std::f64::consts::FRAC_PI_2));
     let die = &built.model.bodies[0];

@@ -290,7 +290,7 @@ impl System for ModelSystem {
         for (index, body) in self.model.bodies.iter().enumerate() {
             let slots = self.model.slots(index);
             let motion = BodyMotion::read(body, slots, y);
-            let apart = match (gaps, self.model.meets_bodies(index)) {
+            let apart = match (gaps, self.model.has_pairs(index)) {
                 (_, false) => f64::INFINITY,
                 (Some(gaps), true) => gaps.of(index).map(|slab| slab.gap).fold(f64::INFINITY, f64::min),
                 (None, true) => 0.0,
@@ -304,14 +304,13 @@ impl System for ModelSystem {
             let lengths = motion.placement.position.norm() + body.size;
             let keeps = || body.solid.surface.as_ref().is_some_and(|surface| body.keeps_digits(surface));
             let near = NEAR * body.size;
-            // A gap between two bodies has the digits of one number.
+            // A gap of a pair has the digits of one number.
             let extended = gap < near && apart > near && keeps();
             let rounding = 4.0 * f64::EPSILON * if extended { gap } else { lengths };
             // Springs make velocities of the rounding of places.
             let shaken = 4.0 * f64::EPSILON * lengths * self.frequencies[index];
             // So do pairs, whose forces are off by some ν ε size/gap: velocities by that part of themselves.
-            let rules = self.model.rules();
-            let exponents = rules.of(index).iter().map(|rule| rules.all()[*rule].laws.repulsion.exponent);
+            let exponents = self.model.pair_laws_of(index).map(|laws| laws.repulsion.exponent);
             let lost = if apart > 0.0 { exponents.fold(0.0, f64::max) * body.size / apart } else { 0.0 };
             let shaken = shaken + 4.0 * f64::EPSILON * lost * speed.max(self.speeds[index]);
             let velocity = atol * self.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed + shaken;

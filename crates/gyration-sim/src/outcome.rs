@@ -2,7 +2,7 @@
 
 use gyration::load::FrictionFault;
 use gyration::model::Model;
-use gyration::{FormulaOf, Inadmissible, Quantity};
+use gyration::{FormulaOf, Inadmissible, Party, Quantity};
 use gyration_ode::{Cause, Failure, Limit};
 use gyration_threads::{Interrupted, Interruption};
 use serde::{Deserialize, Serialize};
@@ -121,15 +121,16 @@ impl Stop {
 
     /// A stop because two bodies touch, as far as digits tell: the gap [m] between one of them and their plane, and the
     /// size [m] with which it is compared.
-    pub fn by_touch(model: &Model, time: f64, bodies: [usize; 2], gap: f64, size: f64) -> Self {
-        let [one, other] = bodies.map(|body| model.name(body));
+    pub fn by_touch(model: &Model, time: f64, parties: [Party; 2], gap: f64, size: f64) -> Self {
+        let [one, other] = parties.map(|party| model.party_name(party));
         Self {
             time,
             reason: Reason::Touching,
             body: Some(one.to_owned()),
             what: format!(
-                "bodies {one:?} and {other:?} touch: the plane between them is {gap:.1e} m off one, {:.1e} of the size \
+                "{} {one:?} and {other:?} touch: the plane between them is {gap:.1e} m off one, {:.1e} of the size \
                  of the smaller one, below what the digits of a number tell",
+                sort(parties),
                 gap / size
             ),
             advice:
@@ -215,12 +216,12 @@ impl Stop {
                     .to_string(),
             ),
             Quantity::PairPlane { other, rule } => {
-                let bodies = [left.body, other];
-                let [one, other] = bodies.map(|body| model.name(body));
+                let parties = [Party::Body(left.body), other];
+                let [one, other] = parties.map(|party| model.party_name(party));
                 (
                     Reason::GapClosed,
-                    format!("the plane between bodies {one:?} and {other:?} cannot be found"),
-                    hardly_forbidden(model, bodies, rule).unwrap_or_else(|| {
+                    format!("the plane between {} {one:?} and {other:?} cannot be found", sort(parties)),
+                    hardly_forbidden(model, parties, rule).unwrap_or_else(|| {
                         "Their potential leaves the range of numbers, or the digits of their gap do not suffice: \
                          choose a d0 nearer to the gaps, a smaller exponent, or give the contact a `reach`."
                             .to_string()
@@ -228,12 +229,12 @@ impl Stop {
                 )
             }
             Quantity::PairGap { other, rule } => {
-                let bodies = [left.body, other];
-                let [one, other] = bodies.map(|body| model.name(body));
+                let parties = [Party::Body(left.body), other];
+                let [one, other] = parties.map(|party| model.party_name(party));
                 (
                     Reason::GapClosed,
-                    format!("bodies {one:?} and {other:?} reach each other{}", in_brackets(left.value)),
-                    hardly_forbidden(model, bodies, rule).unwrap_or_else(|| {
+                    format!("{} {one:?} and {other:?} reach each other{}", sort(parties), in_brackets(left.value)),
+                    hardly_forbidden(model, parties, rule).unwrap_or_else(|| {
                         "The gap is too small for the digits of a number: raise an exponent, a coefficient or d0, or \
                          reduce the speed."
                             .to_string()
@@ -366,8 +367,9 @@ impl Stop {
 }
 
 /// What to do about a pair whose repulsion does not forbid its sharper feature to touch, or only just does.
-fn hardly_forbidden(model: &Model, bodies: [usize; 2], rule: usize) -> Option<String> {
-    let feature = bodies.iter().filter_map(|body| model.bodies[*body].solid.shape.sharpest_feature()).max()?;
+fn hardly_forbidden(model: &Model, parties: [Party; 2], rule: usize) -> Option<String> {
+    let features = parties.into_iter().filter_map(|party| model.solid_of(party)?.shape.sharpest_feature());
+    let feature = features.max()?;
     let (exponent, critical) = (model.rules().all()[rule].laws.repulsion.exponent, feature.critical_exponent());
     let forbids = match exponent.partial_cmp(&critical)? {
         Ordering::Less => "does not forbid",
@@ -378,6 +380,11 @@ fn hardly_forbidden(model: &Model, bodies: [usize; 2], rule: usize) -> Option<St
         "A repulsion of exponent {exponent} {forbids} that they touch ({feature}): choose a larger exponent, more than \
          {critical}; or raise a coefficient or d0, or reduce the speed."
     ))
+}
+
+/// What two parties are called together.
+fn sort(parties: [Party; 2]) -> &'static str {
+    if parties.iter().all(|party| party.body().is_some()) { "bodies" } else { "body and support" }
 }
 
 /// The gap, if the last attempt left one to tell.

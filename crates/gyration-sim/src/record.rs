@@ -5,9 +5,11 @@
 //! the same bytes. An interrupted run leaves no outcome, so that a resumed one ends with the bytes of an uninterrupted
 //! one.
 
+mod describe;
 mod differences;
 pub(crate) mod surfaces;
 
+use self::describe::{describe_solid_support, describe_support};
 pub use self::differences::differences;
 use self::surfaces::Surfaces;
 use crate::events::{EVENT_KINDS, Event};
@@ -19,7 +21,7 @@ use crate::rows::Fields;
 use crate::run::Simulation;
 use crate::summary::RunSummary;
 use crate::survey::remarks::{LeftOut, Remarks};
-use gyration::body::BodyKind;
+use gyration::body::{BodyKind, Solid};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_record::{Attributes, Layout, RecordError, Recording, Writer, chunk_rows_for};
@@ -191,7 +193,7 @@ impl<'a> Job<'a> {
         let expected = (self.plan.end / self.plan.sample).ceil() as usize + 1;
         Layout {
             arrays,
-            fixed: Surfaces::of(&self.model.bodies).arrays(),
+            fixed: Surfaces::of(&self.model).arrays(),
             csv_order,
             labels: self.labels(),
             event_kinds: EVENT_KINDS.map(String::from).into(),
@@ -221,14 +223,19 @@ impl<'a> Job<'a> {
         attributes.insert("commit".into(), json!(provenance.commit));
         let (rtol, atol) = (plan.tolerance.rtol, plan.tolerance.atol);
         attributes.insert("tolerances".into(), json!({ "rtol": rtol, "atol": atol }));
-        let surfaces = Surfaces::of(&self.model.bodies);
+        let surfaces = Surfaces::of(&self.model);
         let bodies = self.model.bodies.iter().zip(self.model.names()).zip(surfaces.of_bodies());
         attributes.insert(
             "bodies".into(),
             bodies.map(|((body, name), surface)| describe_body(body, name, *surface)).collect(),
         );
-        attributes.insert("outlines".into(), surfaces.distinct().iter().map(|body| describe_outline(body)).collect());
+        attributes.insert("outlines".into(), surfaces.distinct().iter().map(|solid| describe_outline(solid)).collect());
         attributes.insert("supports".into(), self.model.supports.iter().map(describe_support).collect());
+        if !self.model.solid_supports.is_empty() {
+            let supports = self.model.solid_supports.iter().zip(surfaces.of_supports());
+            let described = supports.map(|(support, surface)| describe_solid_support(support, *surface));
+            attributes.insert("solid_supports".into(), described.collect());
+        }
         attributes.insert("gravity".into(), json!(self.model.gravity.as_slice()));
         let warnings = self.remarks().warnings;
         if !warnings.is_empty() {
@@ -250,15 +257,15 @@ fn comparable(attributes: &Attributes) -> Option<(Value, Value)> {
     Some((resolved, bodies.into_iter().cloned().collect()))
 }
 
-/// Wireframe and silhouette of a body, relative to the centre of mass.
-fn describe_outline(body: &gyration::body::Body) -> Value {
-    let outline = body.solid.shape.outline();
+/// Wireframe and silhouette of a solid, relative to the centre of mass.
+fn describe_outline(solid: &Solid) -> Value {
+    let outline = solid.shape.outline();
     let relative = |points: &[gyration::tensor::Vec3]| {
-        points.iter().map(|point| json!((point - body.solid.mass.center).as_slice())).collect::<Value>()
+        points.iter().map(|point| json!((point - solid.mass.center).as_slice())).collect::<Value>()
     };
     json!({
         "outline": { "points": relative(&outline.points), "polylines": outline.polylines },
-        "silhouette": relative(&body.solid.shape.silhouette_points()),
+        "silhouette": relative(&solid.shape.silhouette_points()),
     })
 }
 
@@ -279,7 +286,7 @@ fn describe_body(body: &gyration::body::Body, name: &str, surface: Option<usize>
         "surface": surface,
     });
     if surface.is_none()
-        && let (Value::Object(own), Some(all)) = (describe_outline(body), described.as_object_mut())
+        && let (Value::Object(own), Some(all)) = (describe_outline(&body.solid), described.as_object_mut())
     {
         all.extend(own);
     }
@@ -288,23 +295,6 @@ fn describe_body(body: &gyration::body::Body, name: &str, surface: Option<usize>
         described["period"] = json!(period(contractile.contraction.signal()));
     }
     described
-}
-
-fn describe_support(support: &gyration::support::Support) -> Value {
-    use gyration::support::SupportMotion;
-    let motion = match support.motion {
-        SupportMotion::Fixed => Value::Null,
-        SupportMotion::Velocity(velocity) => json!({ "velocity": velocity.as_slice() }),
-        SupportMotion::Oscillation { direction, amplitude, frequency, phase } => json!({ "oscillate": {
-            "direction": direction.as_slice(), "amplitude": amplitude, "frequency": frequency, "phase": phase,
-        }}),
-    };
-    json!({
-        "name": support.name,
-        "origin": support.origin.as_slice(),
-        "normal": support.normal.as_slice(),
-        "motion": motion,
-    })
 }
 
 /// Writes to disk, and flushes now and then.

@@ -12,9 +12,9 @@ use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
 use gyration::support::SupportMotion;
+use gyration::tensor::Vec3;
 use gyration_ode::Components;
 use std::convert::Infallible;
-use std::f64::consts::TAU;
 use std::ops::Range;
 
 /// The energy in play of a body [J]: ½ m v², or without inertia what the fluid turns into heat while it moves by its
@@ -97,19 +97,15 @@ fn pushed(at: &BodyAt, slopes: &[f64], scratch: &mut Scratch) -> Result<f64, Ina
     let mut forces = 0.0;
     each_push(at, scratch, |push| forces += push.force)?;
     let supports = model.contacts_of(index).map(|contact| fastest_motion(&model.supports[contact.support].motion));
-    let carried = supports.fold(0.0, f64::max);
+    let solids = model.rules().with_supports_of(index).flat_map(|rule| rule.supports.iter());
+    let solids = solids.map(|support| model.solid_supports[*support].largest_speed());
+    let carried = supports.chain(solids).fold(0.0, f64::max);
     Ok((acceleration.max(forces / body.solid.mass.mass) * body.size).sqrt().max(carried))
 }
 
 /// The largest speed of a support [m/s].
 fn fastest_motion(motion: &SupportMotion) -> f64 {
-    match motion {
-        SupportMotion::Fixed => 0.0,
-        SupportMotion::Velocity(velocity) => velocity.norm(),
-        SupportMotion::Oscillation { direction, amplitude, frequency, .. } => {
-            (TAU * frequency * amplitude).abs() * direction.norm()
-        }
-    }
+    motion.bound(&Vec3::zeros()).speed
 }
 
 /// √(Σk/m) of the springs at a body [1/s].

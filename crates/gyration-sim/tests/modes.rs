@@ -9,7 +9,7 @@ use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
 use gyration::model::Model;
 use gyration::shape::{Cuboid, Shape, Sphere};
 use gyration::state::{RigidStart, Start, State};
-use gyration::support::{Support, SupportMotion};
+use gyration::support::{MotionPart, Support, SupportMotion};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_sim::modes::{Mode, ModeBehaviour, NoRest, Rest, modes, rest};
@@ -55,7 +55,7 @@ fn ball() -> Shape {
 }
 
 fn plane(normal: Vec3) -> Support {
-    Support { name: "plane".into(), origin: Vec3::zeros(), normal, motion: SupportMotion::Fixed }
+    Support { name: "plane".into(), origin: Vec3::zeros(), normal, motion: SupportMotion::default() }
 }
 
 /// The same with a contact.
@@ -430,8 +430,8 @@ fn supports_that_move_are_held_where_they_are_at_the_start() {
     let (model, state) = standing(0.2, None);
     let mut moving = model.clone();
     let (direction, frequency) = (Vec3::z(), 50.0);
-    Arc::make_mut(&mut moving.supports)[0].motion =
-        SupportMotion::Oscillation { direction, amplitude: 0.01, frequency, phase: 0.5 * std::f64::consts::PI };
+    let wobble = MotionPart::Oscillation { direction, amplitude: 0.01, frequency, phase: 0.5 * std::f64::consts::PI };
+    Arc::make_mut(&mut moving.supports)[0].motion = SupportMotion::new(vec![wobble]);
     let (still, raised) = (rest(&model, &state, 0).unwrap(), rest(&moving, &state, 0).unwrap());
     assert!((raised.placement.position.z - still.placement.position.z - 0.01).abs() < 1e-13);
     assert_close("gap", raised.gap, still.gap, 1e-12);

@@ -183,7 +183,7 @@ fn tractions_integrate_to_the_contact_force_whatever_the_measure_of_area() {
         std::fs::create_dir(&at).unwrap();
         let recording = record(&hovering(shape, kind, measure), &at);
         let mut replay = Replay::open(&recording).unwrap();
-        let surface = SurfaceCells::of(&replay.model().bodies[0], 12).surface().clone();
+        let surface = SurfaceCells::of(&replay.model().bodies[0].solid, 12).surface().clone();
         for row in 0..recording.rows() {
             let force = vector(&recording, "contact_force", row, 0);
             let mut error = |n: usize| {
@@ -237,7 +237,7 @@ fn mean_tractions_of_flat_faces_add_up_to_the_contact_force_exactly() {
         std::fs::create_dir(&at).unwrap();
         let recording = record(&hovering("box = { size = [0.1, 0.12, 0.08] }", kind, measure), &at);
         let mut replay = Replay::open(&recording).unwrap();
-        let cells = SurfaceCells::of(&replay.model().bodies[0], 192);
+        let cells = SurfaceCells::of(&replay.model().bodies[0].solid, 192);
         assert_eq!(cells.len(), 192);
         for row in 0..recording.rows() {
             let (force, recorded) = (summed(&mut replay, row, &cells), vector(&recording, "contact_force", row, 0));
@@ -255,7 +255,7 @@ fn mean_tractions_of_curved_bodies_add_up_to_the_contact_force_however_near_they
     for (name, end) in scenes {
         let recording = gallery(name, &[&format!("time.end={end}")], folder.path());
         let mut replay = Replay::open(&recording).unwrap();
-        let cells = SurfaceCells::of(&replay.model().bodies[0], 1600);
+        let cells = SurfaceCells::of(&replay.model().bodies[0].solid, 1600);
         let weight = replay.model().bodies[0].solid.mass.mass * replay.model().gravity.norm();
         let mut worst = 0.0_f64;
         for row in (0..recording.rows()).step_by(5) {
@@ -273,7 +273,7 @@ fn the_smallest_gap_of_the_corners_is_the_recorded_one() {
     let folder = tempfile::tempdir().unwrap();
     let recording = record(&hovering("box = { size = [0.1, 0.12, 0.08] }", AFFINE, "reference_area"), folder.path());
     let mut replay = Replay::open(&recording).unwrap();
-    let surface = SurfaceCells::of(&replay.model().bodies[0], 12).surface().clone();
+    let surface = SurfaceCells::of(&replay.model().bodies[0].solid, 12).surface().clone();
     let body = replay.snapshot(1).unwrap().body(0);
     let smallest = surface.points.iter().map(|point| body.gap(point)).fold(f64::INFINITY, f64::min);
     let recorded = recording.read_rows("gap", 1..2).unwrap().data[0];

@@ -9,12 +9,13 @@ use crate::fluid::{Fluid, Inclusion};
 use crate::joint::JointEnd;
 use crate::ledger::{Energy, Work};
 use crate::load::{
-    Applied, BodyForce, BondEnd, Couple, InteractionEnd, LinearResistance, Loads, MassFriction, OwnFriction, Potential,
-    SpringEnd,
+    Applied, BodyForce, BondEnd, Couple, InteractionEnd, LinearResistance, Loads, MassFriction, OwnFriction, Party,
+    Potential, SpringEnd,
 };
-use crate::neighbours::Pair;
-use crate::pair::{PairLaws, PairLoads, PairSlopes};
-use crate::support::{Support, SupportMotion};
+use crate::neighbours::{Pair, PairRule};
+use crate::pair::{PairLoads, PairSlopes};
+use crate::solid_support::SolidSupport;
+use crate::support::Support;
 use crate::tensor::Vec3;
 
 /// A pair as one of its bodies sees it.
@@ -42,12 +43,17 @@ impl PairAt<'_> {
         &self.loads.on[self.end.end]
     }
 
-    /// The index of the other body.
-    pub fn other(&self) -> usize {
-        self.end.interaction.bodies[1 - self.end.end]
+    /// The other party.
+    pub fn other(&self) -> Party {
+        self.end.other()
     }
 
-    /// n, from the other body to this one.
+    /// The index of the other body; none of a support.
+    pub fn other_body(&self) -> Option<usize> {
+        self.other().body()
+    }
+
+    /// n, from the other party to this body.
     pub fn normal(&self) -> Vec3 {
         // That of the pair points from the second body to the first.
         if self.end.end == 0 { self.loads.normal } else { -self.loads.normal }
@@ -62,7 +68,7 @@ pub(crate) struct Interacting<C, S, B, P, J> {
     pub springs: S,
     /// Bonds.
     pub bonds: B,
-    /// Bodies that it meets.
+    /// Bodies and supports with a shape that it meets.
     pub pairs: P,
     /// Joints.
     pub joints: J,
@@ -73,7 +79,7 @@ pub(crate) struct Interacting<C, S, B, P, J> {
 pub enum LoadKind {
     /// All laws with supports, their friction included.
     Contact,
-    /// All laws with other bodies.
+    /// All laws with other bodies, and with supports that have a shape.
     Pair,
     /// Springs and bonds, with their dashpots.
     Spring,
@@ -99,7 +105,7 @@ pub enum Load<'a> {
     Spring(SpringEnd<'a>),
     /// A bond to another body.
     Bond(BondEnd<'a>),
-    /// Another body that it meets.
+    /// Another body, or a support with a shape, that it meets.
     Pair(PairAt<'a>),
     /// A joint, to another body or to space.
     Joint(JointEnd<'a>),
@@ -223,7 +229,7 @@ impl<'a> Load<'a> {
     pub fn works(&self, supports: &[Support]) -> Vec<Work> {
         match self {
             Self::Contact(contact) => {
-                let moves = supports[contact.support].motion != SupportMotion::Fixed;
+                let moves = !supports[contact.support].motion.is_fixed();
                 contact
                     .law_set
                     .laws()
@@ -232,7 +238,7 @@ impl<'a> Load<'a> {
                     .chain(moves.then_some(Work::Support))
                     .collect()
             }
-            Self::Pair(pair) => pair_works(&pair.end.interaction.form.laws).collect(),
+            Self::Pair(pair) => pair.end.interaction.form.laws.laws().iter().map(|law| law.kind().work()).collect(),
             Self::Spring(end) if end.interaction.law.damping > 0.0 => vec![Work::Load],
             Self::Bond(end) if end.interaction.works() => vec![Work::Load],
             // What the error of a step leaves: its force does no work.
@@ -269,9 +275,10 @@ impl<'a> Load<'a> {
     }
 }
 
-/// The works that laws between two bodies may do.
-pub(crate) fn pair_works(laws: &PairLaws) -> impl Iterator<Item = Work> {
-    laws.laws().iter().map(|law| law.kind().work())
+/// The works that pairs may do by a rule.
+pub(crate) fn pair_works(rule: &PairRule, supports: &[SolidSupport]) -> impl Iterator<Item = Work> {
+    let moves = rule.supports.iter().any(|support| !supports[*support].motion.is_fixed());
+    rule.laws.laws().iter().map(|law| law.kind().work()).chain(moves.then_some(Work::Support))
 }
 
 /// Where the energy of a pair is stored.

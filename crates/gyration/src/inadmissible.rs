@@ -1,5 +1,6 @@
 //! Leaving the domain of the model is a value, never a clamp, an infinity or a panic.
 
+use crate::party::Party;
 use gyration_expression::Undefined;
 
 /// The force that a formula stands for.
@@ -33,18 +34,18 @@ pub enum Quantity {
         /// Index of the bond in the model.
         bond: usize,
     },
-    /// The width of the slab between this body and another, which must be > 0 [m].
+    /// The width of the slab between this body and another, or a support with a shape, which must be > 0 [m].
     PairGap {
-        /// Index of the other body.
-        other: usize,
+        /// The other.
+        other: Party,
         /// Number of the rule by which they meet.
         rule: usize,
     },
-    /// The squared Newton decrement with which the search for the plane between this body and another ended, which must
-    /// be rounding; NaN where no plane has a potential, or a law no balance on it.
+    /// The squared Newton decrement with which the search for the plane between this body and another, or a support
+    /// with a shape, ended, which must be rounding; NaN where no plane has a potential, or a law no balance on it.
     PairPlane {
-        /// Index of the other body.
-        other: usize,
+        /// The other.
+        other: Party,
         /// Number of the rule by which they meet.
         rule: usize,
     },

@@ -45,6 +45,12 @@ impl Placement {
 }
 
 impl Velocity {
+    /// At rest.
+    pub const ZERO: Self = Self {
+        velocity: Vec3::new(0.0, 0.0, 0.0),
+        gradient_rate: Mat3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    };
+
     /// The velocity ṗ₀ + Ṗ X [m/s] of the material point X (from the centre of mass).
     pub fn at(&self, point: &Vec3) -> Vec3 {
         self.velocity + self.gradient_rate * point

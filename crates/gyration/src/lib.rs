@@ -30,12 +30,15 @@ pub mod material;
 pub mod model;
 pub mod neighbours;
 pub mod pair;
+mod party;
 pub mod shape;
 pub mod signal;
 mod simd;
+pub mod solid_support;
 pub mod state;
 pub mod support;
 pub mod surface;
 pub mod tensor;
 
 pub use inadmissible::{FormulaOf, Inadmissible, Quantity};
+pub use party::Party;

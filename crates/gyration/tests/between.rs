@@ -202,7 +202,7 @@ fn blocks_of_meeting_bodies_without_inertia_are_derivatives_of_the_rates() {
     for laws in [vec![repulsion], vec![repulsion, damping, friction], vec![repulsion, damping, bound]] {
         let laws = Arc::new(PairLaws::new(AreaMeasure::ReferenceArea, laws).unwrap());
         let all: Arc<[usize]> = (0..count).collect();
-        let rule = PairRule { bodies: [all.clone(), all], laws, reach: None };
+        let rule = PairRule { bodies: [all.clone(), all], supports: Arc::from([]), laws, reach: None };
         let model = model.clone().with_bodies(bodies.clone()).meeting(vec![rule]);
         let state = state_at(&model, |k| Vec3::new(0.8 * k as f64, 0.0, 0.0));
         assert_blocks_are_derivatives(&model, &state);

@@ -126,7 +126,7 @@ fn blocks_between_bodies_that_meet_across_cells_are_derivatives_of_the_rates() {
     let [repulsion, damping, friction, _] = laws([5.0, 4.0, 3.0, 2.0]).try_into().unwrap();
     let laws = PairLaws::new(AreaMeasure::ReferenceArea, vec![repulsion, damping, friction]).unwrap();
     let all: Arc<[usize]> = (0..count).collect();
-    let rule = PairRule { bodies: [all.clone(), all], laws: Arc::new(laws), reach: None };
+    let rule = PairRule { bodies: [all.clone(), all], supports: Arc::from([]), laws: Arc::new(laws), reach: None };
     let lattice = Lattice::new(vec![Vec3::new(1.2, 0.1, 0.0)]).unwrap();
     let model = Model::new(Vec3::new(0.3, -0.2, -9.81), vec![], free).in_lattice(lattice);
     let place = |k: usize| Vec3::new(0.0, 1.1 * k as f64, 0.0);

@@ -22,6 +22,7 @@ mod moving;
 mod pairs;
 mod rigid_rates;
 mod shapes;
+mod solid_supports;
 mod solids;
 mod triangulations;
 mod volume_rules;

@@ -47,7 +47,8 @@ fn in_words(scene: &Scene) -> String {
 /// What the modes are about.
 fn assumptions(scene: &Scene) -> String {
     let model = &scene.built().model;
-    let moves = model.supports.iter().any(|support| support.motion != gyration::support::SupportMotion::Fixed);
+    let moves = model.supports.iter().any(|support| !support.motion.is_fixed())
+        || model.solid_supports.iter().any(|support| !support.motion.is_fixed());
     let moving = if moves { ";\nsupports that move are held where they are at t = 0" } else { "" };
     format!("Small motions about the rest state that bodies get to from their start{moving}\n")
 }

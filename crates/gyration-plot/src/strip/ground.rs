@@ -113,8 +113,12 @@ mod tests {
     fn an_inclined_plane_is_a_line_at_its_angle() {
         let (sine, cosine) = 0.4f64.sin_cos();
         let normal = Vec3::new(-sine, 0.0, cosine);
-        let support =
-            Support { name: "slope".into(), origin: Vec3::new(0.0, 5.0, 1.0), normal, motion: SupportMotion::Fixed };
+        let support = Support {
+            name: "slope".into(),
+            origin: Vec3::new(0.0, 5.0, 1.0),
+            normal,
+            motion: SupportMotion::default(),
+        };
         let view = View { right: Vec3::x(), up: Vec3::z(), toward: -Vec3::y(), raised: false };
         let ground = Cut::of(&support, 0.0, &Vec3::new(2.0, 1.0, 3.0), &view).unwrap();
         // The plane passes through (0, 1) of the picture and rises with tan 0.4.
@@ -127,7 +131,7 @@ mod tests {
     #[test]
     fn a_level_plane_seen_from_above_is_a_patch_below_the_bodies() {
         let normal = Vec3::z();
-        let support = Support { name: "table".into(), origin: Vec3::zeros(), normal, motion: SupportMotion::Fixed };
+        let support = Support { name: "table".into(), origin: Vec3::zeros(), normal, motion: SupportMotion::default() };
         let (up, toward) = (Vec3::new(0.0, 0.6, 0.8), Vec3::new(0.0, -0.8, 0.6));
         let view = View { right: Vec3::x(), up, toward, raised: true };
         let site = Site { mean: Vec3::new(1.0, 2.0, 3.0), half_side: 0.5 };

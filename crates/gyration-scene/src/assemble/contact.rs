@@ -2,12 +2,14 @@
 
 use super::body::AssembledBody;
 use super::partners::{Names, Partners, without_surface};
+use super::support::AssembledSupports;
 use super::{pair, reach};
 use crate::check::{PartialScene, Placed, Reporter};
 use crate::file::{Contact, Measure, Reach};
 use crate::key::Key;
 use crate::quantity::si;
 use crate::units::shown;
+use gyration::Party;
 use gyration::contact::{Adhesion, AreaMeasure, Contact as Acting, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use gyration::neighbours::PairRule;
 use std::collections::BTreeSet;
@@ -23,6 +25,7 @@ const MOST_ENDLESS: usize = 10_000_000;
 /// has no surface, and laws out of range.
 pub(super) fn attach(
     partial: &PartialScene,
+    supports: &AssembledSupports,
     assembled: &[Option<AssembledBody>],
     reporter: &mut Reporter<'_>,
 ) -> (Vec<Acting>, Vec<PairRule>, Vec<Key>) {
@@ -42,6 +45,20 @@ pub(super) fn attach(
         match partners {
             Partners::Support { support, bodies, named } => {
                 count += bodies.len();
+                let support = match supports.party(support) {
+                    Party::Support(plane) => plane,
+                    Party::SolidSupport(solid) => {
+                        let with = pair::WithSupport { solid, bodies, named, supports };
+                        let written = (value, key, &gravity);
+                        if let Some(rule) = with.rule(written, (measure, laws), assembled, reporter) {
+                            endless += rule.bodies[0].len();
+                            rules.push(rule);
+                            keys.push(key.clone());
+                        }
+                        continue;
+                    }
+                    Party::Body(_) | Party::Space => continue,
+                };
                 if let Some(reach) = &value.reach {
                     let beyond = match reach {
                         Reach::Length(reach) => format!(", and so beyond {} m", shown(reach.value())),
@@ -73,12 +90,12 @@ pub(super) fn attach(
                 let reach = match value.reach {
                     None => None,
                     Some(written) => {
-                        let found = reach::reach(written, (&laws, &groups), &gravity, assembled, (key, reporter));
+                        let found = reach::reach(written, &laws, &gravity, (&groups, None), (assembled, key, reporter));
                         let Some(found) = found else { continue };
                         Some(found)
                     }
                 };
-                let rule = PairRule { bodies: groups.map(Arc::from), laws, reach };
+                let rule = PairRule { bodies: groups.map(Arc::from), supports: Arc::from([]), laws, reach };
                 endless += pair::count_endless(&rule, assembled);
                 if endless > MOST_ENDLESS {
                     let message = format!("with this contact more than {MOST_ENDLESS} pairs act however far they are");

@@ -14,7 +14,7 @@ pub(crate) struct SceneContext<'a> {
     pub(super) base: &'a Path,
     /// When the run ends \[s\], if the file says so without error.
     pub(super) end: Option<f64>,
-    /// Whether there is a support, well formed or not.
+    /// Whether there is a support that is a plane, well formed or not.
     pub(super) has_support: bool,
     /// Whether there is a fluid, well formed or not.
     pub(super) has_fluid: bool,
@@ -36,7 +36,7 @@ impl<'a> SceneContext<'a> {
         Self {
             base,
             end: partial.time.as_ref().map(|time| time.end.value()),
-            has_support: !supports.is_empty(),
+            has_support: supports.iter().any(|support| support.get("shape").is_none()),
             has_fluid: document.root.get("fluid").is_some(),
             fluid: partial.fluid.as_ref().map(|fluid| [fluid.viscosity.value(), fluid.density.value()]),
             constants,

@@ -55,6 +55,7 @@ use gyration::lattice::Lattice;
 use gyration::load::{Bond, Interaction, Party, Spring};
 use gyration::model::Model;
 use gyration::neighbours::{ImagePairs, PairRule};
+use gyration::solid_support::SolidSupport;
 use gyration::state::{Start, State};
 use gyration::support::Support;
 use gyration::tensor::{Mat3, Vec3};
@@ -66,6 +67,7 @@ use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::time::Duration;
+use support::AssembledSupports;
 use wave::WrittenWaves;
 
 /// A scene ready to run.
@@ -207,8 +209,8 @@ pub(crate) fn assemble(
         assembled[body.number] = AssembledBody::new(body, context, solids, reporter);
     }
     let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
-    let supports: Vec<_> = partial.supports.iter().map(|placed| support::support(&placed.value)).collect();
-    let (contacts, rules, rule_keys) = contact::attach(partial, &assembled, reporter);
+    let supports = AssembledSupports::of(partial, context.base, reporter);
+    let (contacts, rules, rule_keys) = contact::attach(partial, &supports, &assembled, reporter);
     let anchored = assembled.iter().flatten().flat_map(|body| &body.springs).copied();
     let cells = partial.lattice.as_ref().map(|written| Cells::of(written, reporter));
     let of_cell = cells.as_ref().and_then(Option::as_ref);
@@ -219,7 +221,7 @@ pub(crate) fn assemble(
     contacts.iter().for_each(|contact| _ = met[contact.body].insert(contact.support));
     for body in &mut partial.bodies {
         if let Some(assembled_body) = &assembled[body.number] {
-            overlap::check(body, assembled_body, &met[body.number], &supports, reporter);
+            overlap::check(body, assembled_body, &met[body.number], &supports.planes, reporter);
             resolve::resolve(&mut body.value, &assembled_body.start);
         }
     }
@@ -227,9 +229,10 @@ pub(crate) fn assemble(
     give_sizes(&mut assembled, (&springs, &bonds), of_cell);
     let mut waves = None;
     if let Some(cells) = of_cell {
-        let supports: Vec<_> = supports.iter().flatten().cloned().collect();
+        let planes: Vec<_> = supports.planes.iter().flatten().cloned().collect();
         let fluid = around.as_ref().and_then(Option::as_ref);
-        cells.check_alike(&supports, &contacts, fluid, &assembled, reporter);
+        support::refuse_solids(partial, reporter);
+        cells.check_alike(&planes, &contacts, fluid, &assembled, reporter);
         let bodies: Vec<AssembledBody> = assembled.iter().flatten().cloned().collect();
         waves = partial.lattice.as_ref().and_then(|written| wave::waves(written, cells, reporter));
         lattice::check_held(&si(&partial.world.gravity), &contacts, &bodies, reporter);
@@ -245,7 +248,8 @@ pub(crate) fn assemble(
     let bodies: Vec<AssembledBody> = assembled.into_iter().flatten().collect();
     let parts = Parts {
         gravity: si(&partial.world.gravity),
-        supports: supports.into_iter().collect::<Option<Vec<_>>>()?,
+        supports: supports.planes.into_iter().collect::<Option<Vec<_>>>()?,
+        solid_supports: supports.solids.into_iter().collect::<Option<Vec<_>>>()?,
         bodies,
         fluid: around.map(|fluid| fluid.map(Arc::new)),
         contacts,
@@ -318,6 +322,7 @@ fn give_sizes(assembled: &mut [Option<AssembledBody>], (springs, bonds): (&[Spri
 struct Parts {
     gravity: Vec3,
     supports: Vec<Support>,
+    solid_supports: Vec<SolidSupport>,
     bodies: Vec<AssembledBody>,
     /// None inside if it has an error.
     fluid: Option<Option<Arc<Fluid>>>,
@@ -352,6 +357,7 @@ impl Parts {
         let names: Vec<String> = self.bodies.iter().map(|it| it.name.clone()).collect();
         let (bodies, starts): (Vec<_>, Vec<Start>) = self.bodies.into_iter().map(|it| (it.body, it.start)).unzip();
         let mut model = Model::new(self.gravity, self.supports, bodies)
+            .with_solid_supports(self.solid_supports)
             .named(names)
             .in_lattice(self.lattice)
             .beginning_at(self.origins);

@@ -2,14 +2,18 @@
 
 use super::body::AssembledBody;
 use super::partners::without_surface;
+use super::reach;
 use super::start::placement;
+use super::support::AssembledSupports;
 use crate::check::Reporter;
+use crate::file::Contact;
 use crate::key::Key;
 use gyration::body::Solid;
 use gyration::contact::{AreaMeasure, ContactLaw};
 use gyration::kinematics::Placement;
 use gyration::neighbours::{BodyPair, PairRule, PairRules, Sphere, each_near};
 use gyration::pair::{Mass, Overlap, PairLaws, PairLawsError, Reach};
+use gyration::tensor::Vec3;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -64,9 +68,16 @@ pub(super) fn check_range(
     key: &Key,
     reporter: &mut Reporter<'_>,
 ) {
-    let solids = rule.bodies.each_ref().map(|set| {
+    let known = |set: &Arc<[usize]>| {
         let known = set.iter().filter_map(|body| Some(&assembled[*body].as_ref()?.body.solid));
-        let mut solids: Vec<&Arc<Solid>> = known.collect();
+        known.collect::<Vec<&Arc<Solid>>>()
+    };
+    check_range_of(rule, rule.bodies.each_ref().map(known), key, reporter);
+}
+
+/// The same of the solids of both sides.
+fn check_range_of(rule: &PairRule, solids: [Vec<&Arc<Solid>>; 2], key: &Key, reporter: &mut Reporter<'_>) {
+    let solids = solids.map(|mut solids| {
         solids.dedup_by(|one, other| Arc::ptr_eq(one, other));
         let masses = solids.into_iter().flat_map(|solid| {
             let mass = solid.mass.mass;
@@ -128,6 +139,63 @@ pub(super) fn check_overlaps(
     );
 }
 
+/// A contact of bodies with a support that has a shape.
+pub(super) struct WithSupport<'a> {
+    /// Its place among the supports with a shape.
+    pub(super) solid: usize,
+    pub(super) bodies: Vec<usize>,
+    /// Whether the bodies were named one by one.
+    pub(super) named: bool,
+    pub(super) supports: &'a AssembledSupports,
+}
+
+impl WithSupport<'_> {
+    /// The rule by which they meet; none if something about it is wrong, which is noted.
+    pub(super) fn rule(
+        self,
+        (written, key, gravity): (&Contact, &Key, &Vec3),
+        (measure, acting): (AreaMeasure, Vec<ContactLaw>),
+        assembled: &[Option<AssembledBody>],
+        reporter: &mut Reporter<'_>,
+    ) -> Option<PairRule> {
+        let laws = laws(measure, acting, key, reporter)?;
+        let between = key.key(if written.between.is_some() { "between" } else { "support" });
+        let has_surface = |body: &usize| assembled[*body].as_ref().is_none_or(|it| it.body.solid.surface.is_some());
+        let mut bodies = self.bodies;
+        if !self.named {
+            bodies.retain(has_surface);
+        }
+        let known = bodies.iter().filter_map(|body| assembled[*body].as_ref());
+        if known.filter(|body| !can_meet(body, &between, reporter)).count() > 0 {
+            return None;
+        }
+        let support = self.supports.solids[self.solid].as_ref()?;
+        let sets = [bodies, Vec::new()];
+        let reach = match written.reach {
+            None => None,
+            Some(reach) => {
+                Some(reach::reach(reach, &laws, gravity, (&sets, Some(support)), (assembled, key, reporter))?)
+            }
+        };
+        let rule = PairRule { bodies: sets.map(Arc::from), supports: Arc::from([self.solid]), laws, reach };
+        let solids = rule.bodies[0].iter().filter_map(|body| Some(&assembled[*body].as_ref()?.body.solid));
+        check_range_of(&rule, [solids.collect(), vec![&support.solid]], key, reporter);
+        for body in rule.bodies[0].iter().filter_map(|body| assembled[*body].as_ref()) {
+            if reporter.diagnostics.is_full() {
+                break;
+            }
+            let placements = [&placement(&body.start), &support.at(0.0).placement];
+            let solids = [&*body.body.solid, &*support.solid];
+            let parts = Solid::parts_of(solids);
+            let overlap = parts.map(|[i, j]| Overlap::check([solids[0].part(i), solids[1].part(j)], placements));
+            if let Some(overlap) = overlap.filter_map(Result::err).next() {
+                overlapping_by_name([&body.name, &support.name], &overlap, &between, reporter);
+            }
+        }
+        Some(rule)
+    }
+}
+
 /// A sphere that holds a body: |P X| ≤ √‖PᵀP‖_∞ |X|.
 fn sphere(assembled: &AssembledBody, placement: &Placement) -> Sphere {
     let Some(radius) = assembled.body.solid.radius() else { return Sphere::NOWHERE };
@@ -153,7 +221,11 @@ pub(super) fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Repo
 
 /// Notes two bodies that overlap.
 fn overlapping(both: [&AssembledBody; 2], overlap: &Overlap, key: &Key, reporter: &mut Reporter<'_>) {
-    let [one, other] = both.map(|assembled| &assembled.name);
+    overlapping_by_name(both.map(|assembled| assembled.name.as_str()), overlap, key, reporter);
+}
+
+/// Notes two that overlap, of which the first can be moved.
+fn overlapping_by_name([one, other]: [&str; 2], overlap: &Overlap, key: &Key, reporter: &mut Reporter<'_>) {
     let (message, [by, way]) = overlap_in_words(overlap);
     reporter.note(key, format!("\"{one}\" and \"{other}\" {message}"), format!("move \"{one}\" {by} {way}"));
 }

@@ -7,6 +7,7 @@ use crate::file;
 use crate::key::Key;
 use gyration::body::Solid;
 use gyration::pair::{Falling, Mass, PairLaws, Reach};
+use gyration::solid_support::SolidSupport;
 use gyration::state::{RigidStart, Start};
 use gyration::surface::Surface;
 use gyration::tensor::Vec3;
@@ -18,13 +19,14 @@ const COMPARED: usize = 1000;
 /// So many different solids of a set are looked at one by one; of more, the largest surface with the smallest mass.
 const PAIRED: usize = 50;
 
-/// The reach of a contact between two sets of bodies; none where nothing says how long it is, which is noted.
+/// The reach of a contact between two sets of bodies, or a set of bodies and a support with a shape; none where nothing
+/// says how long it is, which is noted.
 pub(super) fn reach(
     written: file::Reach,
-    (laws, sets): (&PairLaws, &[Vec<usize>; 2]),
+    laws: &PairLaws,
     gravity: &Vec3,
-    assembled: &[Option<AssembledBody>],
-    (key, reporter): (&Key, &mut Reporter<'_>),
+    (sets, support): (&[Vec<usize>; 2], Option<&SolidSupport>),
+    (assembled, key, reporter): (&[Option<AssembledBody>], &Key, &mut Reporter<'_>),
 ) -> Option<Reach> {
     if let file::Reach::Length(length) = written {
         return Some(Reach::Length(length.value()));
@@ -38,7 +40,7 @@ pub(super) fn reach(
         reporter.note(&key, message, "write a length: some 25 of the gaps at which their forces balance the fluid's");
         return None;
     }
-    let falling = Falling { gravity: gravity.norm(), speed: largest_speed(&sets) };
+    let falling = Falling { gravity: gravity.norm(), speed: largest_speed(&sets, support) };
     if !falling.acts() {
         // Of a body with an error it is not known whether it moves.
         if assembled.iter().all(Option::is_some) {
@@ -47,7 +49,7 @@ pub(super) fn reach(
         }
         return None;
     }
-    let [least, longest] = extremes(&falling, laws, &sets);
+    let [least, longest] = extremes(&falling, laws, &sets, support);
     if !(least > 0.0 && longest.is_finite()) {
         let message = "at no gap that is a number do two of the bodies store what brings them together";
         reporter.note(&key, message, "write a length, a larger exponent, or another alpha");
@@ -56,8 +58,12 @@ pub(super) fn reach(
     Some(Reach::Gaps { falling, longest, is_common: least == longest })
 }
 
-/// The largest speed of a body of one set relative to one of the other at the start [m/s].
-fn largest_speed(sets: &[Vec<&AssembledBody>; 2]) -> f64 {
+/// The largest speed of a body of one set relative to one of the other at the start, or to a point of a support [m/s].
+fn largest_speed(sets: &[Vec<&AssembledBody>; 2], support: Option<&SolidSupport>) -> f64 {
+    if let Some(support) = support {
+        let fastest = sets[0].iter().map(|body| velocity(body).norm()).fold(0.0, f64::max);
+        return fastest + support.largest_speed();
+    }
     let velocities = sets.each_ref().map(|set| {
         let all: Vec<Vec3> = set.iter().map(|body| velocity(body)).collect();
         if all.len() > COMPARED { farthest(&all) } else { all }
@@ -90,10 +96,18 @@ fn farthest(velocities: &[Vec3]) -> Vec<Vec3> {
 }
 
 /// The shortest and the longest reach of bodies of two sets [m]; of very many different ones no less than the longest.
-fn extremes(falling: &Falling, laws: &PairLaws, sets: &[Vec<&AssembledBody>; 2]) -> [f64; 2] {
-    let kinds = sets.each_ref().map(|set| {
+fn extremes(
+    falling: &Falling,
+    laws: &PairLaws,
+    sets: &[Vec<&AssembledBody>; 2],
+    support: Option<&SolidSupport>,
+) -> [f64; 2] {
+    let carried: Vec<&Arc<Solid>> = support.iter().map(|support| &support.solid).collect();
+    let [one, other] = sets.each_ref().map(|set| set.iter().map(|assembled| &assembled.body.solid).collect());
+    let solids: [Vec<&Arc<Solid>>; 2] = [one, if support.is_some() { carried } else { other }];
+    let kinds = solids.each_ref().map(|solids| {
         let mut seen = HashSet::new();
-        let solids = set.iter().map(|assembled| &assembled.body.solid);
+        let solids = solids.iter().copied();
         let different = solids.filter(|solid| seen.insert(Arc::as_ptr(solid)));
         different.flat_map(parts).collect::<Vec<Mass>>()
     });

@@ -1,22 +1,122 @@
-//! Supports: planes with unit normals, and their motions.
+//! Supports: planes with unit normals, solids, and their motions.
 
-use crate::check::direction;
+use super::orientation::orientation;
+use super::shape::ShapeBuilder;
+use crate::check::{PartialScene, Placed, Reporter, direction};
 use crate::file::{Motion, Support};
+use crate::key::Key;
 use crate::quantity::si;
-use gyration::support::{Support as Plane, SupportMotion};
+use gyration::Party;
+use gyration::body::Solid;
+use gyration::kinematics::{Placement, Quaternion};
+use gyration::mass::MassProperties;
+use gyration::shape::Shape;
+use gyration::solid_support::SolidSupport;
+use gyration::support::{MotionPart, Support as Plane, SupportMotion};
+use std::path::Path;
+use std::sync::Arc;
 
-/// The support, if its directions are not zero (which the checks have noted otherwise).
-pub(super) fn support(support: &Support) -> Option<Plane> {
-    let motion = match &support.motion {
-        None => SupportMotion::Fixed,
-        Some(Motion::Velocity(velocity)) => SupportMotion::Velocity(si(velocity)),
-        Some(Motion::Oscillate(oscillation)) => SupportMotion::Oscillation {
+/// The supports of a scene, by sort; none in the place of one with an error.
+#[derive(Debug, Default)]
+pub(super) struct AssembledSupports {
+    /// Those that are planes.
+    pub(super) planes: Vec<Option<Plane>>,
+    /// Those with a shape.
+    pub(super) solids: Vec<Option<SolidSupport>>,
+    /// Which of these each well-formed support of the file is.
+    parties: Vec<Party>,
+}
+
+impl AssembledSupports {
+    /// Builds them; notes what is wrong with a shape.
+    pub(super) fn of(partial: &PartialScene, base: &Path, reporter: &mut Reporter<'_>) -> Self {
+        let mut this = Self::default();
+        for placed in &partial.supports {
+            if placed.value.shape.is_some() {
+                this.parties.push(Party::SolidSupport(this.solids.len()));
+                this.solids.push(solid(placed, base, reporter));
+            } else {
+                this.parties.push(Party::Support(this.planes.len()));
+                this.planes.push(plane(&placed.value));
+            }
+        }
+        this
+    }
+
+    /// Which one a well-formed support of the file is.
+    pub(super) fn party(&self, number: usize) -> Party {
+        self.parties[number]
+    }
+}
+
+/// A plane, if its directions are not zero (which the checks have noted otherwise).
+fn plane(support: &Support) -> Option<Plane> {
+    let plane = support.plane.as_ref()?;
+    let (motion, normal) = (motion(support)?, direction(&plane.normal)?);
+    Some(Plane { name: support.name.clone(), origin: si(&plane.origin), normal, motion })
+}
+
+/// A support with a shape.
+fn solid(placed: &Placed<Support>, base: &Path, reporter: &mut Reporter<'_>) -> Option<SolidSupport> {
+    let Placed { key, value, .. } = placed;
+    let turned = match &value.orientation {
+        None => Some(Quaternion::IDENTITY),
+        Some(written) => orientation(written, &key.key("orientation"), reporter),
+    };
+    let shape = ShapeBuilder { base, reporter }.shape(value.shape.as_ref()?, &key.key("shape"), Some(1.0))?;
+    if !is_solid(&shape, &key.key("shape"), reporter) {
+        return None;
+    }
+    // No force moves it.
+    let mass = MassProperties { mass: f64::INFINITY, ..shape.mass_properties(1.0) };
+    let position = value.position.as_ref().map(si).unwrap_or_default();
+    Some(SolidSupport {
+        name: value.name.clone(),
+        size: shape.size(),
+        solid: Arc::new(Solid::new(shape, mass)),
+        start: Placement { position, gradient: turned?.rotation() },
+        motion: motion(value)?,
+    })
+}
+
+/// Whether bodies can meet a shape; notes why not.
+fn is_solid(shape: &Shape, key: &Key, reporter: &mut Reporter<'_>) -> bool {
+    if shape.surface().is_none() {
+        reporter.note(key, "points have no surface that a body could meet", "write a shape with a surface");
+        return false;
+    }
+    if let Err(why) = shape.check_convex() {
+        let message = format!("bodies cannot meet this shape: {why}");
+        reporter.note(key, message, "make it a union of convex ones: a plane stands between convex bodies");
+        return false;
+    }
+    true
+}
+
+/// The motion of a support, if its directions are not zero.
+fn motion(support: &Support) -> Option<SupportMotion> {
+    let written = support.motion.iter().flat_map(|motion| motion.as_slice());
+    let parts = written.map(|motion| match motion {
+        Motion::Velocity(velocity) => Some(MotionPart::Velocity(si(velocity))),
+        Motion::Oscillate(oscillation) => Some(MotionPart::Oscillation {
             direction: direction(&oscillation.direction)?,
             amplitude: oscillation.amplitude.0,
             frequency: oscillation.frequency.value(),
             phase: oscillation.phase.0,
-        },
-    };
-    let normal = direction(&support.plane.normal)?;
-    Some(Plane { name: support.name.clone(), origin: si(&support.plane.origin), normal, motion })
+        }),
+        Motion::Rotate(rotation) => Some(MotionPart::Rotation {
+            axis: direction(&rotation.axis)?,
+            point: si(&rotation.point),
+            rate: rotation.rate.0,
+        }),
+    });
+    Some(SupportMotion::new(parts.collect::<Option<_>>()?))
+}
+
+/// Notes supports with a shape in a lattice.
+pub(super) fn refuse_solids(partial: &PartialScene, reporter: &mut Reporter<'_>) {
+    for placed in partial.supports.iter().filter(|placed| placed.value.shape.is_some()) {
+        let message = "cells do not see a support with a shape alike";
+        reporter.note(&placed.key.key("shape"), message, "write a plane that holds all cell vectors");
+    }
 }

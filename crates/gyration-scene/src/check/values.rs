@@ -6,7 +6,7 @@
 use super::joints;
 use super::partial::BodyWords;
 use super::{PartialScene, Placed, Reporter};
-use crate::file::{Contact, Motion, Record, Support, Time};
+use crate::file::{Contact, Motion, OneOrMany, Record, Support, Time};
 use crate::key::{Key, is_name};
 use crate::suggest;
 use crate::tree::{Node, Value};
@@ -208,16 +208,55 @@ fn once(record: &Record, reporter: &mut Reporter<'_>) {
     }
 }
 
+/// Notes what is wrong with the form and the directions of a support.
 fn directions(support: &Placed<Support>, reporter: &mut Reporter<'_>) {
-    let key = &support.key;
-    if direction(&support.value.plane.normal).is_none() {
+    let Placed { key, value, .. } = support;
+    form(support, reporter);
+    if value.plane.as_ref().is_some_and(|plane| direction(&plane.normal).is_none()) {
         reporter.note(&key.key("plane").key("normal"), "the normal is zero", "write a direction, [0, 0, 1]");
     }
-    if let Some(Motion::Oscillate(oscillation)) = &support.value.motion
-        && direction(&oscillation.direction).is_none()
-    {
-        let key = key.key("motion").key("oscillate").key("direction");
-        reporter.note(&key, "the direction is zero", "write a direction, [0, 0, 1]");
+    let motions = value.motion.as_ref().map(OneOrMany::as_slice).unwrap_or_default();
+    for (index, motion) in motions.iter().enumerate() {
+        let key = key.key("motion");
+        let key = if matches!(value.motion, Some(OneOrMany::Many(_))) { key.index(index) } else { key };
+        let (place, what, written) = match motion {
+            Motion::Velocity(_) => continue,
+            Motion::Oscillate(oscillation) => {
+                (key.key("oscillate").key("direction"), "direction", &oscillation.direction)
+            }
+            Motion::Rotate(rotation) => (key.key("rotate").key("axis"), "axis", &rotation.axis),
+        };
+        if direction(written).is_none() {
+            reporter.note(&place, format!("the {what} is zero"), "write a direction, [0, 0, 1]");
+        }
+        if matches!(motion, Motion::Rotate(_)) && value.shape.is_none() {
+            let message = "this version does not turn planes";
+            reporter.note(&key.key("rotate"), message, "give the support a `shape` in the place of its plane");
+        }
+    }
+}
+
+/// Notes a support that is neither or both of a plane and a solid, and what a plane does not have.
+fn form(support: &Placed<Support>, reporter: &mut Reporter<'_>) {
+    let Placed { key, value, .. } = support;
+    match (&value.plane, &value.shape) {
+        (None, None) => {
+            let help = "add `plane` or `shape`: a plane { origin = [x, y, z], normal = [x, y, z] }, or a solid";
+            reporter.note(key, "it has neither a plane nor a shape", help);
+        }
+        (Some(_), Some(_)) => {
+            let help = "leave out one of them, or write two supports";
+            reporter.note(&key.key("shape"), "it stands beside a plane", help);
+        }
+        (None, Some(_)) => {}
+        (Some(_), None) => {
+            for word in [value.position.as_ref().map(|_| "position"), value.orientation.as_ref().map(|_| "orientation")]
+            {
+                let Some(word) = word else { continue };
+                let help = "write origin and normal of the plane, or give the support a `shape`";
+                reporter.note(&key.key(word), "a plane has none", help);
+            }
+        }
     }
 }
 

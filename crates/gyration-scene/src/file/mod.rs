@@ -46,7 +46,7 @@ pub use shape::{
 pub use signal::{Constant, Interpolation, Ramp, Signal, Table, Wave};
 pub use solver::{Method, Solver};
 pub use spring::SpringBetween;
-pub use support::{Motion, Oscillation, Plane, Support};
+pub use support::{Motion, Oscillation, Plane, Rotation, Support};
 pub use time::{StopAtRest, Time};
 pub use world::World;
 

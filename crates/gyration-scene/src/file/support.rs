@@ -1,20 +1,31 @@
-//! `[[support]]`: planes that bodies can touch, fixed or moving.
+//! `[[support]]`: planes and solids that bodies can touch, fixed or moving.
 
-use crate::quantity::{Angle, Frequency, Length, NonNegative, Velocity};
+use super::{OneOrMany, Orientation, Shape};
+use crate::quantity::{Angle, AngularVelocity, Frequency, Length, NonNegative, Velocity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A plane that bodies can touch.
+/// A plane, or a solid, that bodies can touch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Support {
     /// Its name, `[A-Za-z0-9_-]+`.
     pub name: String,
-    /// The plane; bodies are on the side to which the normal points.
-    pub plane: Plane,
-    /// How it moves; fixed if absent.
+    /// The plane; bodies are on the side to which the normal points. Or a `shape`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub motion: Option<Motion>,
+    pub plane: Option<Plane>,
+    /// Its shape, a convex one or a union of such; instead of a `plane`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shape: Option<Shape>,
+    /// Where the centre of mass of its shape is before any motion (m).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position: Option<[Length; 3]>,
+    /// How its shape is turned before any motion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Orientation>,
+    /// How it moves, or a list of motions that add up; fixed if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<OneOrMany<Motion>>,
 }
 
 /// A plane: gap of a point p is (p − origin)·normal.
@@ -41,6 +52,21 @@ pub enum Motion {
     Oscillate(Oscillation),
     /// A constant velocity (m/s).
     Velocity([Velocity; 3]),
+    /// A turn at a constant rate.
+    Rotate(Rotation),
+}
+
+/// A turn about an axis, by the right-hand rule.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Rotation {
+    /// Axis; need not be of unit length.
+    pub axis: [f64; 3],
+    /// A point of the axis before any motion (m).
+    #[serde(default)]
+    pub point: [Length; 3],
+    /// Angular velocity about it (rad/s).
+    pub rate: AngularVelocity,
 }
 
 /// The displacement direction · amplitude · sin(2π·frequency·t + phase).

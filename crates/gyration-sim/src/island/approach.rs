@@ -26,6 +26,11 @@ impl Approach {
         }
     }
 
+    /// The same with so much more acceleration, along whatever direction [m/s²].
+    pub fn bent_more(self, bend: f64) -> Self {
+        Self { acceleration: self.acceleration + bend, ..self }
+    }
+
     /// The distance after a time without acceleration [m].
     pub fn straight(&self, time: f64) -> f64 {
         (self.place + time * self.velocity).norm()

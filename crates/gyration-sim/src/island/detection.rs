@@ -60,9 +60,9 @@ impl Island {
     pub fn touch(&self) -> Option<Stop> {
         let model = self.model();
         self.system.step_end_gaps()?.iter().find_map(|(pair, slab)| {
-            let size = pair.bodies.map(|body| model.bodies[body].size).into_iter().fold(f64::INFINITY, f64::min);
+            let size = pair.parties.into_iter().filter_map(|it| model.size_of(it)).fold(f64::INFINITY, f64::min);
             let gap = pair.form.touch(slab, size)?;
-            Some(Stop::by_touch(model, self.time(), pair.bodies, gap, size))
+            Some(Stop::by_touch(model, self.time(), pair.parties, gap, size))
         })
     }
 

@@ -14,7 +14,9 @@
 //! are out of reach of each other come halfway into it. Steps are cut by this and never lengthened.
 
 use crate::island::approach::{Approach, may_meet};
+use crate::island::carried::SeenFromSupport;
 use crate::island::step_end::StepEnd;
+use gyration::Party;
 use gyration::body::Solid;
 use gyration::contact::RelativeMotion;
 use gyration::instant::PairGaps;
@@ -23,7 +25,7 @@ use gyration::model::Model;
 use gyration::neighbours::{BodyPair, Pair};
 use gyration::pair::{cutoff, half_cutoff};
 use gyration::signal::Signal;
-use gyration::support::{Support, SupportMotion};
+use gyration::support::{MotionPart, Support};
 use gyration::surface::{GapField, Surface};
 use gyration::tensor::Vec3;
 
@@ -74,26 +76,44 @@ pub(crate) fn horizon(
         for contact in model.contacts_of(index) {
             let support = &model.supports[contact.support];
             let approach = PlaneApproach::of(model, contact.support, time, end, surface, *radius);
-            step = step.min(match support.motion {
-                SupportMotion::Oscillation { frequency, amplitude, .. } if frequency != 0.0 && amplitude != 0.0 => {
-                    let near = surface.smallest_gap(&approach.field).0 < body.size;
-                    let resolved = PERIOD_PART / frequency.abs();
-                    if near { resolved } else { approach.time(step).max(resolved) }
-                }
-                _ => approach.time(step),
+            let frequency = support.motion.highest_frequency();
+            step = step.min(if frequency > 0.0 {
+                let near = surface.smallest_gap(&approach.field).0 < body.size;
+                let resolved = PERIOD_PART / frequency;
+                if near { resolved } else { approach.time(step).max(resolved) }
+            } else {
+                approach.time(step)
             });
         }
     }
     // Of pairs whose planes were not found nothing is known: the next step is likely to stop the run.
     let is_whole = gaps.is_some_and(PairGaps::is_whole);
     for (pair, slab) in gaps.into_iter().flat_map(PairGaps::iter) {
-        let both = pair.bodies.map(|body| &ends[body]);
+        let seen = match pair.parties {
+            [Party::Body(body), Party::SolidSupport(support)] => {
+                let support = &model.solid_supports[support];
+                let frequency = support.motion.highest_frequency();
+                if frequency > 0.0 && slab.gap < model.bodies[body].size {
+                    step = step.min(PERIOD_PART / frequency);
+                }
+                Some(SeenFromSupport::of(support, time, &ends[body]))
+            }
+            _ => None,
+        };
+        let both = match (&seen, pair.bodies()) {
+            (Some(SeenFromSupport { body, support, .. }), _) => [body, support],
+            (None, Some(bodies)) => bodies.map(|body| &ends[body]),
+            (None, None) => continue,
+        };
+        let bend = seen.map_or(0.0, |seen| seen.bend);
         match (slab.gap < f64::INFINITY, pair.form.reach) {
-            (false, Some(reach)) if is_whole => {
-                step = step.min(before_meeting(both, (reach, pair.form.radii()), step));
+            // All pairs with supports are listed.
+            (false, Some(reach)) if is_whole || seen.is_some() => {
+                let approach = Approach::of(both[0], both[1]).bent_more(bend);
+                step = step.min(before_meeting(&approach, (reach, pair.form.radii()), step));
             }
             (false, Some(_)) => {}
-            _ => step = step.min(BodyApproach::of(model, pair, both, radii, &slab.normal).time(step)),
+            _ => step = step.min(BodyApproach::of(model, pair, (both, bend), radii, &slab.normal).time(step)),
         }
     }
     if !is_whole {
@@ -115,7 +135,8 @@ fn before_any_meeting(model: &Model, ends: &[StepEnd], within: f64, longest: f64
         for parts in Solid::parts_of(solids) {
             let Some(reach) = model.rules().all()[rule].reach_between(solids, parts) else { continue };
             let radii = [0, 1].map(|end| solids[end].part_radius(parts[end]));
-            step = step.min(before_meeting(bodies.map(|body| &ends[body]), (reach, radii), step));
+            let approach = Approach::of(&ends[bodies[0]], &ends[bodies[1]]);
+            step = step.min(before_meeting(&approach, (reach, radii), step));
         }
     }
     step
@@ -123,8 +144,7 @@ fn before_any_meeting(model: &Model, ends: &[StepEnd], within: f64, longest: f64
 
 /// The longest step [s] after which two bodies of these radii that are out of a reach may be at another distance within
 /// it, at most `longest`.
-fn before_meeting([one, other]: [&StepEnd; 2], (reach, radii): (f64, [f64; 2]), longest: f64) -> f64 {
-    let approach = Approach::of(one, other);
+fn before_meeting(approach: &Approach, (reach, radii): (f64, [f64; 2]), longest: f64) -> f64 {
     let within = half_cutoff(reach, radii);
     if approach.distance(0.0) <= cutoff(reach, radii) {
         return longest;
@@ -152,10 +172,21 @@ pub(crate) fn next_kink(model: &Model, time: f64) -> Option<f64> {
 
 /// How far an oscillating support comes forward from its origin along its normal [m].
 fn reach(support: &Support) -> f64 {
-    match support.motion {
-        SupportMotion::Oscillation { direction, amplitude, .. } => (amplitude * direction.dot(&support.normal)).abs(),
-        _ => 0.0,
-    }
+    let forward = |part: &MotionPart| match part {
+        MotionPart::Oscillation { direction, amplitude, .. } => (amplitude * direction.dot(&support.normal)).abs(),
+        MotionPart::Velocity(_) | MotionPart::Rotation { .. } => 0.0,
+    };
+    support.motion.parts().iter().map(forward).sum()
+}
+
+/// How far a support is displaced by its constant velocities [m], and these [m/s].
+fn drift(support: &Support, time: f64) -> (Vec3, Vec3) {
+    let velocity = |part: &MotionPart| match part {
+        MotionPart::Velocity(velocity) => *velocity,
+        MotionPart::Oscillation { .. } | MotionPart::Rotation { .. } => Vec3::zeros(),
+    };
+    let velocity: Vec3 = support.motion.parts().iter().map(velocity).sum();
+    (velocity * time, velocity)
 }
 
 impl<'a> PlaneApproach<'a> {
@@ -163,9 +194,10 @@ impl<'a> PlaneApproach<'a> {
         let (support, motion) = (&model.supports[index], &end.motion);
         let mut field = support.gap_field(&motion.placement, time);
         let mut velocity = RelativeMotion::to(support, &motion.velocity, time).velocity;
-        if let SupportMotion::Oscillation { .. } = support.motion {
-            field.height = (motion.placement.position - support.origin).dot(&support.normal) - reach(support);
-            velocity = motion.velocity.velocity;
+        if support.motion.oscillates() {
+            let (way, speed) = drift(support, time);
+            field.height = (motion.placement.position - support.origin - way).dot(&support.normal) - reach(support);
+            velocity = motion.velocity.velocity - speed;
         }
         Self::along(&support.normal, (end, &end.acceleration), (surface, radius), (field, velocity))
     }
@@ -223,24 +255,27 @@ struct BodyApproach<'a> {
 }
 
 impl<'a> BodyApproach<'a> {
-    fn of(model: &'a Model, pair: &Pair, ends: [&StepEnd; 2], radii: &[f64], normal: &Vec3) -> Self {
+    /// The second may accelerate towards the first by `bend` besides [m/s²].
+    fn of(model: &'a Model, pair: &Pair, (ends, bend): ([&StepEnd; 2], f64), radii: &[f64], normal: &Vec3) -> Self {
         // A sees all of the acceleration, as if B had none.
         let accelerations = [ends[0].acceleration - ends[1].acceleration, Vec3::zeros()];
-        let halves = [0, 1].map(|side| {
-            let (end, body) = (ends[side], pair.bodies[side]);
+        let mut halves = [0, 1].map(|side| {
+            let (end, party) = (ends[side], pair.parties[side]);
             let normal = if side == 0 { *normal } else { -normal };
             let Placement { position, gradient } = &end.motion.placement;
             // The gaps of both count in sum: the plane may pass anywhere.
             let field = GapField::new(position.dot(&normal), gradient.tr_mul(&normal));
-            let surface = model.bodies[body].solid.part(pair.parts[side]);
+            let solid = model.solid_of(party).unwrap_or_else(|| unreachable!("a pair is between solids"));
+            let radius = party.body().map_or_else(|| solid.radius().unwrap_or(0.0), |body| radii[body]);
             PlaneApproach::along(
                 &normal,
                 (end, &accelerations[side]),
-                (surface, radii[body]),
+                (solid.part(pair.parts[side]), radius),
                 (field, end.motion.velocity.velocity),
             )
         });
-        Self { halves, centers: Approach::of(ends[0], ends[1]) }
+        halves[0].acceleration += bend;
+        Self { halves, centers: Approach::of(ends[0], ends[1]).bent_more(bend) }
     }
 
     /// The longest step [s] that this approach allows, at most `longest`.

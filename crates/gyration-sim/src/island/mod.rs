@@ -6,6 +6,7 @@
 //! no trace in any number.
 
 mod approach;
+mod carried;
 mod detection;
 pub(crate) mod horizon;
 mod merging;

@@ -20,18 +20,17 @@ struct Pooled {
 pub(crate) struct ScratchPool(Mutex<Vec<Pooled>>);
 
 impl ScratchPool {
-    /// Does something with each of these islands, which have scratch meanwhile. Those of several bodies keep their own:
-    /// their factors are made for a pattern that few share.
+    /// Does something with each of these islands, which have scratch meanwhile. Those of several bodies keep their own,
+    /// whose factors are made for a pattern that few share, and those of one that meets supports with a shape.
     pub fn with_scratch<'a>(&self, islands: impl Iterator<Item = &'a mut Island>, mut act: impl FnMut(&mut Island)) {
         let shared = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let mut pooled = shared().pop().unwrap_or_default();
         for island in islands {
-            if island.members().len() > 1 {
+            // A workspace remembers the planes of pairs.
+            if island.members().len() > 1 || !island.model().rules().is_empty() {
                 act(island);
                 continue;
             }
-            // No pairs, whose planes a workspace would remember.
-            debug_assert!(island.model().rules().is_empty());
             island.integrator.take_scratch(&mut pooled.stepper);
             island.system.exchange_workspace(&mut pooled.workspace);
             act(island);

@@ -14,7 +14,6 @@ use gyration::load::{Interaction, Party};
 use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
-use gyration::support::SupportMotion;
 use gyration::tensor::{Mat3, Vec3};
 use gyration::{FormulaOf, Inadmissible, Quantity};
 use std::ops::Range;
@@ -52,12 +51,8 @@ impl FrozenSystem {
     /// Of bodies whose indices ascend.
     pub fn new(model: &Model, start: &State, members: &[usize], contraction: FrozenContraction) -> Self {
         let mut alone = model.part(members);
-        let mut supports = model.supports.to_vec();
-        for support in &mut supports {
-            support.origin += support.motion.displacement(start.time);
-            support.motion = SupportMotion::Fixed;
-        }
-        alone.supports = supports.into();
+        alone.supports = model.supports.iter().map(|support| support.held_at(start.time)).collect();
+        alone.solid_supports = model.solid_supports.iter().map(|support| support.held_at(start.time)).collect();
         let (mut bodies, mut numbers) = (Vec::new(), Vec::new());
         for member in members {
             let (body, block) = frozen(model, start, *member, contraction);
@@ -132,10 +127,11 @@ impl FrozenSystem {
         self.model.in_space(body, place)
     }
 
-    /// Whether a pin, a spring to an anchor or a force of its own may hold one of them.
+    /// Whether a pin, a spring to an anchor, a support with a shape or a force of its own may hold one of them.
     pub fn is_anchored(&self) -> bool {
+        let is_carried = !self.model.pairs_with_supports().is_empty();
         let is_held = self.model.springs().iter().any(|spring| spring.law.stiffness > 0.0 && spring.bodies().is_none());
-        is_held || self.model.bodies.iter().any(|body| body.pin.is_some() || body.own.hold())
+        is_held || is_carried || self.model.bodies.iter().any(|body| body.pin.is_some() || body.own.hold())
     }
 
     pub fn gravity(&self) -> Vec3 {
@@ -150,11 +146,19 @@ impl FrozenSystem {
             Quantity::Formula { of: FormulaOf::Bond(bond), undefined } => {
                 Quantity::Formula { of: FormulaOf::Bond(self.bonds[bond]), undefined }
             }
-            Quantity::PairGap { other, rule } => Quantity::PairGap { other: self.members[other], rule },
-            Quantity::PairPlane { other, rule } => Quantity::PairPlane { other: self.members[other], rule },
+            Quantity::PairGap { other, rule } => Quantity::PairGap { other: self.in_scene(other), rule },
+            Quantity::PairPlane { other, rule } => Quantity::PairPlane { other: self.in_scene(other), rule },
             other => other,
         };
         Inadmissible { body: self.members[left.body], quantity, ..left }
+    }
+
+    /// A party as the scene numbers it.
+    fn in_scene(&self, party: Party) -> Party {
+        match party {
+            Party::Body(body) => Party::Body(self.members[body]),
+            Party::Support(_) | Party::SolidSupport(_) | Party::Space => party,
+        }
     }
 
     /// The rates of the numbers.
@@ -210,14 +214,14 @@ impl FrozenSystem {
     }
 
     /// The smallest distances of each body to the supports that push or pull at it, then the smallest slab between it
-    /// and the bodies that it meets, infinite if there are none within reach [m].
+    /// and what it meets besides, infinite if there are none within reach [m].
     pub fn gaps(&mut self, numbers: &[f64]) -> Vec<Vec<f64>> {
         let Self { model, workspace, time, .. } = self;
         let is_found = !model.rules().is_empty() && workspace.pair_gaps(model, *time, numbers.into()).is_ok();
         let gaps = |body: usize| {
             let apart = is_found.then(|| self.workspace.found_gaps().of(body).map(|slab| slab.gap));
             let apart = apart.into_iter().flatten().fold(f64::INFINITY, f64::min);
-            let meets = self.model.meets_bodies(body);
+            let meets = self.model.has_pairs(body);
             self.support_gaps(numbers, body).chain(meets.then_some(apart)).collect()
         };
         (0..self.count()).map(gaps).collect()

@@ -4,7 +4,7 @@
 //! the bulge s, and a law d^−ν is missed by ν s/d. There the triangle is divided in n² and pushed out onto the true
 //! surface, which leaves ν s/(n² d); everywhere else it serves as it is. Over a triangle the integrals are exact.
 
-use gyration::body::Body;
+use gyration::body::Solid;
 use gyration::contact::{Contact, ContactLaw};
 use gyration::shape::{Shape, Triangulation};
 use gyration::surface::{GapField, Surface};
@@ -56,10 +56,10 @@ const PROBES: [[f64; 3]; 7] = [
 ];
 
 impl SurfaceCells {
-    /// The surface of a body in about `count` triangles; flat faces are divided until they are as many.
-    pub fn of(body: &Body, count: usize) -> Self {
+    /// The surface of a solid in about `count` triangles; flat faces are divided until they are as many.
+    pub fn of(solid: &Solid, count: usize) -> Self {
         let mut this = Self { surface: Triangulation::default(), cells: Vec::new(), leaves: Vec::new() };
-        this.add(&body.solid.shape, Mat3::identity(), -body.solid.mass.center, count);
+        this.add(&solid.shape, Mat3::identity(), -solid.mass.center, count);
         this
     }
 

@@ -3,6 +3,8 @@
 //! F(s) is the force of the repulsion along the normal n [N] at a slab of width s between them, without velocity: F =
 //! −dU/ds as long as the plane keeps its normal, as between balls and between faces that lie opposite.
 
+use super::meetings::solids;
+use gyration::Party;
 use gyration::contact::Deformation;
 use gyration::kinematics::{Placement, Velocity};
 use gyration::model::Model;
@@ -38,18 +40,24 @@ struct End<'a> {
 }
 
 impl<'a> Encounter<'a> {
-    /// Of the bodies of a pair; none where no plane is found between them at the start.
+    /// Of the two of a pair; none where no plane is found between them at the start.
     pub fn new(model: &'a Model, start: &State, pair: &Pair) -> Option<Self> {
-        let bodies = pair.bodies.map(|body| &model.bodies[body]);
+        let solids = solids(model, pair);
         let end = |k: usize| {
-            let placement = start.motion_in_space(model, pair.bodies[k]).placement;
-            let deformation = bodies[k].affine().and_then(|_| Deformation::of(&placement.gradient));
+            let (placement, deforms) = match pair.parties[k] {
+                Party::Body(body) => {
+                    (start.motion_in_space(model, body).placement, model.bodies[body].affine().is_some())
+                }
+                Party::SolidSupport(support) => (model.solid_supports[support].at(start.time).placement, false),
+                Party::Support(_) | Party::Space => unreachable!("a pair is between solids"),
+            };
+            let deformation = deforms.then(|| Deformation::of(&placement.gradient)).flatten();
             // P of a rigid body is a rotation.
             let inverse = deformation.map_or_else(|| placement.gradient.transpose(), |deformation| deformation.inverse);
-            End { surface: bodies[k].solid.part(pair.parts[k]), placement, deformation, inverse }
+            End { surface: solids[k].part(pair.parts[k]), placement, deformation, inverse }
         };
         let ends = [end(0), end(1)];
-        let size = bodies.map(|body| body.size).into_iter().fold(0.0, f64::max);
+        let size = pair.parties.into_iter().filter_map(|party| model.size_of(party)).fold(0.0, f64::max);
         // Out of reach there is a plane all the same.
         let surfaces = ends.each_ref().map(|end| end.surface);
         let felt_everywhere = PairForm::new(Arc::clone(&pair.form.laws), None, surfaces);

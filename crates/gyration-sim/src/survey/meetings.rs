@@ -5,6 +5,7 @@
 use super::laws::LawSurvey;
 use super::reach_change::ReachChange;
 use crate::format::significant;
+use gyration::body::Solid;
 use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::neighbours::Pair;
@@ -24,7 +25,7 @@ const EVALUATIONS: usize = 16;
 /// To find the plane of a pair takes about so long [s].
 const PLANE: f64 = 5e-6;
 
-/// What can be said of two bodies that meet.
+/// What can be said of two bodies, or a body and a support with a shape, that meet.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeetingSurvey {
     /// Names of the two.
@@ -54,7 +55,7 @@ impl MeetingSurvey {
         let known: HashMap<_, f64> = near().map(|(pair, slab)| (pair.key(), slab.gap)).collect();
         let of = |pair: &Pair| Self::of(model, start, pair, known.get(&pair.key()).copied());
         if model.count_pairs()[0] <= MOST_LISTED {
-            return model.pairs().map(|pair| of(&pair)).collect();
+            return model.pairs().map(|pair| of(&pair)).chain(model.pairs_with_supports().iter().map(of)).collect();
         }
         let rules = model.rules().all().iter().enumerate();
         let first = rules.filter_map(|(rule, set)| model.pairs_between(rule, set.pairs().next()?).next());
@@ -65,13 +66,11 @@ impl MeetingSurvey {
     }
 
     fn of(model: &Model, start: &State, pair: &Pair, initial_gap: Option<f64>) -> Self {
-        let bodies = pair.bodies.map(|body| &model.bodies[body]);
-        let shapes = bodies.map(|body| &body.solid.shape);
-        let [first, second] = shapes.map(|shape| shape.sharpest_feature());
-        let sharper = if first >= second { shapes[0] } else { shapes[1] };
+        let [one, other] = solids(model, pair).map(|solid| &solid.shape);
+        let sharper = if one.sharpest_feature() >= other.sharpest_feature() { one } else { other };
         let laws: Vec<LawSurvey> = pair.form.laws.laws().iter().map(|law| LawSurvey::of(law, sharper)).collect();
         Self {
-            between: pair.bodies.map(|body| model.name(body).to_owned()),
+            between: pair.parties.map(|party| model.party_name(party).to_owned()),
             initial_gap,
             reach: pair.form.reach,
             reach_change: ReachChange::of(model, start, pair).map(|change| change.part),
@@ -79,6 +78,11 @@ impl MeetingSurvey {
             laws,
         }
     }
+}
+
+/// The solids of the two of a pair.
+pub(super) fn solids<'a>(model: &'a Model, pair: &Pair) -> [&'a Solid; 2] {
+    pair.parties.map(|party| model.solid_of(party).unwrap_or_else(|| unreachable!("a pair is between solids")))
 }
 
 /// The meetings as text, those with the same laws under one verdict; `pairs` of bodies meet, so many of them feel each

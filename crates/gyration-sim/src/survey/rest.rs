@@ -275,6 +275,8 @@ fn held_otherwise(model: &Model, index: usize) -> Option<&'static str> {
         Some("a joint holds the body as well")
     } else if model.meets_bodies(index) {
         Some("other bodies meet it as well")
+    } else if model.has_pairs(index) {
+        Some("supports with a shape meet it as well")
     } else if model.springs_of(index).any(|end| end.other() == Party::Space) || model.is_joined(index) {
         Some("springs pull at the body as well")
     } else if supports.any(|support| Some(support) != first) {

@@ -48,6 +48,11 @@ fn in_words(scene: &Scene, survey: &Survey) -> String {
         let (origin, normal) = (vector(&support.origin.into()), vector(&support.normal.into()));
         let _ = writeln!(text, "support    {}: plane through {origin} m, normal {normal}", support.name);
     }
+    for support in built.model.solid_supports.iter() {
+        let place = vector(&support.start.position.into());
+        let moves = if support.motion.is_fixed() { "fixed" } else { "moves as prescribed" };
+        let _ = writeln!(text, "support    {}: a solid about {place} m, {moves}", support.name);
+    }
     write_springs(&mut text, &survey.springs);
     write_meetings(&mut text, &survey.meetings, survey.pairs[0], survey.pairs[1]);
     for note in &survey.remarks.notes {

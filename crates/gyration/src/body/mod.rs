@@ -196,6 +196,11 @@ const EXTENDED_RESOLUTION: f64 = RESOLUTION * RESOLUTION;
 /// The gap, relative to size and height, below which it is computed to twice the digits: eleven of sixteen are left.
 pub const NEAR: f64 = 1e-5;
 
+/// The gap [m] that cannot be told from zero between what is of a size and what is so far away [m].
+pub(crate) fn least_distance(size: f64, distance: f64) -> f64 {
+    RESOLUTION * (size + distance)
+}
+
 impl Body {
     /// Whether another of the same solid is equal, so that one may stand for both; a pinned one has a place of its own.
     pub fn can_stand_for(&self, other: &Self) -> bool {
@@ -235,7 +240,7 @@ impl Body {
 
     /// The gap [m] to a body whose centre is so far away that cannot be told from zero.
     pub(crate) fn least_distance(&self, distance: f64) -> f64 {
-        RESOLUTION * (self.size + distance)
+        least_distance(self.size, distance)
     }
 
     /// The gap [m] that cannot be told from zero.

@@ -5,7 +5,7 @@ use super::Scratch;
 use super::contacts::support_gap_at;
 use crate::acting::PairEnd;
 use crate::inadmissible::{Inadmissible, Quantity};
-use crate::instant::{BodyAt, outside, with_sides};
+use crate::instant::{BodyAt, PartyAt, outside, with_sides};
 use crate::model::PATIENCE;
 use crate::neighbours::Pair;
 use crate::pair::PairLoads;
@@ -80,8 +80,7 @@ fn smallest_gap(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible>
 impl Search<'_, '_> {
     /// What the slab of a pair is no narrower than [m].
     fn least(&self, pair: &Pair) -> f64 {
-        let [one, other] = pair.bodies.map(|body| self.at.beside(body));
-        one.apart(&other, pair.cell).norm() - WIDEST * pair.form.radii().iter().sum::<f64>()
+        PartyAt::apart(&self.at.parties_of(pair), pair.cell).norm() - WIDEST * pair.form.radii().iter().sum::<f64>()
     }
 
     /// Looks at the pairs that are not listed of the body and another.
@@ -116,16 +115,15 @@ impl Search<'_, '_> {
 
     /// The slab between two bodies that are out of reach [m].
     fn slab(&mut self, pair: &Pair) -> Result<f64, Inadmissible> {
-        let bodies = pair.bodies.map(|body| self.at.beside(body));
-        let [one, other] = &bodies;
-        if let Some(gap) = pair.form.gap_of_balls(one.apart(other, pair.cell).norm()) {
+        let parties = self.at.parties_of(pair);
+        if let Some(gap) = pair.form.gap_of_balls(PartyAt::apart(&parties, pair.cell).norm()) {
             return Ok(gap);
         }
-        let found = with_sides(pair, &bodies, |sides| {
+        let found = with_sides(pair, &parties, |sides| {
             // A plane of least potential may be beyond the digits of a number.
             let found = PairLoads::integrate(&pair.form, sides, None, &mut self.scratch.pairs);
             found.or_else(|_| PairLoads::nothing(&pair.form, sides))
         });
-        found.map(|loads| loads.gap).map_err(|fault| outside(one, pair, fault))
+        found.map(|loads| loads.gap).map_err(|fault| outside(pair, fault))
     }
 }

@@ -12,8 +12,9 @@ use crate::acting::{Load, PairAt};
 use crate::contact::{ContactLoads, ContactSlopes, LawKind, contact_potential};
 use crate::inadmissible::{FormulaOf, Inadmissible, Quantity};
 use crate::instant::{BodyAt, MotionAt};
+use crate::kinematics::Velocity;
 use crate::ledger::{Energy, Work};
-use crate::load::{LoadSlopes, Loads};
+use crate::load::{LoadSlopes, Loads, Party};
 use crate::pair::PairSlopes;
 use gyration_expression::Undefined;
 
@@ -75,6 +76,11 @@ impl Acting {
                 if pair.end.counts() {
                     for law in LawKind::ALL {
                         self.powers.add(law, pair.loads.powers[law as usize]);
+                    }
+                    if let Party::SolidSupport(support) = pair.other() {
+                        // What pushes the support does the work that its own load takes.
+                        let Velocity { velocity, gradient_rate } = &at.support_motion(support).velocity;
+                        self.powers[Work::Support] -= pair.loads.on[1].power(velocity, gradient_rate);
                     }
                 }
                 self.contact += *pair.on_body();

@@ -1,11 +1,12 @@
 //! What springs exert, and what bodies that meet do to each other: the second stage of an instant. Each spring and the
 //! plane of each pair are found once, and both bodies have their part of what is exchanged there.
 
-use super::motions::{MotionAt, Motions};
+use super::motions::{Motions, PartyAt};
 use super::slabs::{PairGaps, Remembered};
 use crate::acting::{PairAt, PairEnd};
 use crate::inadmissible::{FormulaOf, Inadmissible, Quantity};
 use crate::joint::JointLoads;
+use crate::kinematics::BodyMotion;
 use crate::load::{BondFault, BondLoads, BondPlace, BondSlopes, Interaction, SpringLoads};
 use crate::model::{Model, PATIENCE};
 use crate::neighbours::Pair;
@@ -53,7 +54,7 @@ pub(super) enum Wanted {
 /// A pair within reach, and where its plane is looked for first.
 struct Looked<'a> {
     pair: &'a Pair,
-    bodies: &'a [MotionAt<'a>; 2],
+    parties: &'a [PartyAt<'a>; 2],
     guess: Option<&'a Guess>,
     asked: Wanted,
 }
@@ -207,12 +208,12 @@ impl Looked<'_> {
     /// Whether it does nothing, as the plane tells that it had before.
     fn is_out_of_reach(&self) -> bool {
         let Some(guess) = self.guess else { return false };
-        with_sides(self.pair, self.bodies, |sides| self.pair.form.is_out_of_reach(sides, guess))
+        with_sides(self.pair, self.parties, |sides| self.pair.form.is_out_of_reach(sides, guess))
     }
 
     /// Whether one of the two has no inertia.
     fn is_balanced(&self) -> bool {
-        self.bodies.iter().any(|at| !at.body.has_inertia())
+        self.parties.iter().any(|party| !party.has_inertia())
     }
 
     /// Whether it feels the velocity of a body without inertia.
@@ -221,11 +222,11 @@ impl Looked<'_> {
     }
 
     fn loads(&self, room: &mut PairScratch) -> Result<PairLoads, PairFault> {
-        with_sides(self.pair, self.bodies, |sides| PairLoads::integrate(&self.pair.form, sides, self.guess, room))
+        with_sides(self.pair, self.parties, |sides| PairLoads::integrate(&self.pair.form, sides, self.guess, room))
     }
 
     fn find_slopes(&self, slopes: &mut PairSlopes, room: &mut PairScratch) -> Result<(), PairFault> {
-        with_sides(self.pair, self.bodies, |sides| slopes.find(&self.pair.form, sides, self.guess, room))
+        with_sides(self.pair, self.parties, |sides| slopes.find(&self.pair.form, sides, self.guess, room))
     }
 }
 
@@ -243,7 +244,7 @@ pub(super) fn find_slabs(looking: &mut Looking, slabs: &mut PairGaps) -> Result<
     slabs.begin(looking.motions.near());
     looking.for_each(|looked, room| {
         let gap =
-            |Looked { pair, bodies, guess, .. }| with_sides(pair, bodies, |sides| pair.form.gap(sides, guess, room));
+            |Looked { pair, parties, guess, .. }| with_sides(pair, parties, |sides| pair.form.gap(sides, guess, room));
         slabs.push(looked.map(gap).transpose()?.unwrap_or(PairGap::FAR));
         Ok(())
     })
@@ -259,42 +260,49 @@ impl Looking<'_> {
         let pairs = motions.near().pairs();
         remembered.find(pairs);
         for (number, pair) in pairs.all().iter().enumerate() {
-            let bodies = pair.bodies.map(|body| motions.at(model, body));
+            let parties = motions.parties(model, pair);
             if (number + 1).is_multiple_of(PATIENCE) && model.is_given_up() {
-                return Err(bodies[0].outside(Quantity::Interruption, f64::NAN));
+                return Err(Inadmissible { body: first(pair), quantity: Quantity::Interruption, value: f64::NAN });
             }
             let guess = remembered.guess(number, motions.time());
-            let looked = Looked { pair, bodies: &bodies, guess: guess.as_ref(), asked: *wanted };
+            let looked = Looked { pair, parties: &parties, guess: guess.as_ref(), asked: *wanted };
             let looked = motions.place(number).map(|_| looked);
-            each(looked, room).map_err(|fault| outside(&bodies[0], pair, fault))?;
+            each(looked, room).map_err(|fault| outside(pair, fault))?;
         }
         Ok(())
     }
 }
 
+/// The body of a pair that stands first.
+fn first(pair: &Pair) -> usize {
+    pair.parties[0].body().unwrap_or_else(|| unreachable!("a body stands first in a pair"))
+}
+
 /// A state outside the model, for what became of a plane.
-pub(crate) fn outside(at: &MotionAt, pair: &Pair, fault: PairFault) -> Inadmissible {
-    let (other, rule) = (pair.bodies[1], pair.rule);
-    match fault {
-        PairFault::Overlap { gap } => at.outside(Quantity::PairGap { other, rule }, gap),
-        PairFault::NotFound { decrement } => at.outside(Quantity::PairPlane { other, rule }, decrement),
-        PairFault::Singular(_) => at.outside(Quantity::PairPlane { other, rule }, f64::NAN),
-    }
+pub(crate) fn outside(pair: &Pair, fault: PairFault) -> Inadmissible {
+    let (other, rule) = (pair.parties[1], pair.rule);
+    let (quantity, value) = match fault {
+        PairFault::Overlap { gap } => (Quantity::PairGap { other, rule }, gap),
+        PairFault::NotFound { decrement } => (Quantity::PairPlane { other, rule }, decrement),
+        PairFault::Singular(_) => (Quantity::PairPlane { other, rule }, f64::NAN),
+    };
+    Inadmissible { body: first(pair), quantity, value }
 }
 
 /// Hands the two sides of a pair to `each`.
-pub(crate) fn with_sides<T>(pair: &Pair, bodies: &[MotionAt; 2], each: impl FnOnce([&Side; 2]) -> T) -> T {
-    let apart = bodies[0].apart(&bodies[1], pair.cell);
+pub(crate) fn with_sides<T>(pair: &Pair, parties: &[PartyAt; 2], each: impl FnOnce([&Side; 2]) -> T) -> T {
+    let apart = PartyAt::apart(parties, pair.cell);
     let [one, other] = [0, 1].map(|end| {
-        let at = &bodies[end];
+        let party = &parties[end];
+        let BodyMotion { placement, velocity } = party.motion();
         Side {
-            surface: at.body.solid.part(pair.parts[end]),
-            placement: &at.motion.placement,
+            surface: party.solid().part(pair.parts[end]),
+            placement,
             from_first: if end == 0 { Vec3::zeros() } else { apart },
-            velocity: &at.motion.velocity,
-            inverse: at.inverse(),
-            deformation: at.deformation(),
-            least_gap: at.body.least_distance(apart.norm()),
+            velocity,
+            inverse: party.inverse(),
+            deformation: party.deformation(),
+            least_gap: party.least_distance(apart.norm()),
         }
     });
     each([&one, &other])

@@ -15,8 +15,8 @@ mod motions;
 mod slabs;
 
 pub(crate) use between::{outside, with_sides};
-pub(crate) use motions::KindAt;
 pub use motions::MotionAt;
+pub(crate) use motions::{KindAt, PartyAt};
 pub use slabs::PairGaps;
 
 use crate::acting::{Load, PairAt, PairEnd};
@@ -213,7 +213,7 @@ impl Instant<'_> {
             .chain(bonds)
             .chain(joints)
             .filter(move |other| *other != body)
-            .chain(self.at(body).pairs().filter(|pair| pair.acts()).map(|pair| pair.other()))
+            .chain(self.at(body).pairs().filter(|pair| pair.acts()).filter_map(|pair| pair.other_body()))
     }
 
     /// What springs, bonds and pairs do across cells: the cell of the second party as seen from that of the first, and

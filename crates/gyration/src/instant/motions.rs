@@ -6,15 +6,17 @@
 
 use crate::acting::PairEnd;
 use crate::affine::Gyration;
-use crate::body::{Affine, Body, BodyKind, Contractile, RigidInertia, Slots};
+use crate::body::{Affine, Body, BodyKind, Contractile, RigidInertia, Slots, Solid, least_distance};
 use crate::contact::Deformation;
 use crate::contractile::Decomposition;
 use crate::extended::{Extended, ExtendedVec3, Numbers};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::kinematics::{Placement, Quaternion, Velocity};
 use crate::lattice::{Cell, HERE};
+use crate::load::Party;
 use crate::model::Model;
-use crate::neighbours::NeighbourList;
+use crate::neighbours::{NeighbourList, Pair};
+use crate::solid_support::SolidSupport;
 use crate::state::{BodyMotion, Turn, contraction_at};
 use crate::tensor::{Mat3, Vec3};
 
@@ -26,6 +28,8 @@ pub(crate) struct Motions {
     /// What the state lacks of twice its digits; empty where that is not known.
     low: Vec<f64>,
     bodies: Vec<BodyInstant>,
+    /// Of the supports with a shape.
+    supports: Vec<BodyMotion>,
     near: NeighbourList,
     /// By the number of a listed pair: its place among those whose bodies are within reach of each other.
     within: Vec<Option<usize>>,
@@ -65,6 +69,13 @@ pub struct MotionAt<'a> {
     attitude: &'a Attitude,
     /// Where the other bodies are found.
     motions: &'a Motions,
+}
+
+/// One of the two of a pair, at a time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum PartyAt<'a> {
+    Body(MotionAt<'a>),
+    Support(&'a SolidSupport, &'a BodyMotion),
 }
 
 /// The kind of a body, with what it needs of its motion more than once.
@@ -138,12 +149,14 @@ impl Motions {
         for (index, (body, instant)) in model.bodies.iter().zip(&mut self.bodies).enumerate() {
             instant.read(body, index, model.slots(index), (time, state))?;
         }
+        self.supports.clear();
+        self.supports.extend(model.solid_supports.iter().map(|support| support.at(time)));
         let Self { bodies, near, .. } = self;
         let place = |index: usize| bodies[index].motion.placement.position;
         if let Some((body, value)) = model.images().and_then(|images| images.strayed(place)) {
             return Err(Inadmissible { body, quantity: Quantity::Stray, value });
         }
-        near.update(model.rules(), model.images(), &model.bodies, place);
+        near.update((model.rules(), model.pairs_with_supports()), model.images(), &model.bodies, place);
         self.find_reached(model);
         Ok(())
     }
@@ -154,10 +167,9 @@ impl Motions {
         within.clear();
         let mut count = 0;
         within.extend(self.near.pairs().all().iter().map(|pair| {
-            let [one, other] = pair.bodies.map(|body| self.at(model, body));
-            let is_rigid = |at: &MotionAt| matches!(at.attitude, Attitude::Rigid(_));
-            let cutoff = pair.form.cutoff().filter(|_| is_rigid(&one) && is_rigid(&other));
-            cutoff.is_none_or(|cutoff| one.apart(&other, pair.cell).norm() < cutoff).then(|| {
+            let parties = self.parties(model, pair);
+            let cutoff = pair.form.cutoff().filter(|_| parties.iter().all(PartyAt::is_rigid));
+            cutoff.is_none_or(|cutoff| PartyAt::apart(&parties, pair.cell).norm() < cutoff).then(|| {
                 count += 1;
                 count - 1
             })
@@ -199,12 +211,90 @@ impl Motions {
         &self.bodies[index].motion
     }
 
+    /// The two of a pair of the model from whose state this was read.
+    #[inline]
+    pub fn parties<'a>(&'a self, model: &'a Model, pair: &Pair) -> [PartyAt<'a>; 2] {
+        pair.parties.map(|party| match party {
+            Party::Body(index) => PartyAt::Body(self.at(model, index)),
+            Party::SolidSupport(index) => PartyAt::Support(&model.solid_supports[index], &self.supports[index]),
+            Party::Support(_) | Party::Space => unreachable!("a pair is of bodies and supports with a shape"),
+        })
+    }
+
     /// A body of the model from whose state this was read.
     #[inline]
     pub fn at<'a>(&'a self, model: &'a Model, index: usize) -> MotionAt<'a> {
         let BodyInstant { motion, attitude } = &self.bodies[index];
         let numbers = Numbers { high: &self.state, low: &self.low };
         MotionAt { model, time: self.time, index, body: &model.bodies[index], motion, numbers, attitude, motions: self }
+    }
+}
+
+impl<'a> PartyAt<'a> {
+    /// Shape and surface.
+    pub fn solid(&self) -> &'a Solid {
+        match self {
+            Self::Body(at) => &at.body.solid,
+            Self::Support(support, _) => &support.solid,
+        }
+    }
+
+    /// p₀, P, ṗ₀, Ṗ.
+    pub fn motion(&self) -> &'a BodyMotion {
+        match self {
+            Self::Body(at) => at.motion,
+            Self::Support(_, motion) => motion,
+        }
+    }
+
+    /// P⁻¹.
+    pub fn inverse(&self) -> Mat3 {
+        match self {
+            Self::Body(at) => at.inverse(),
+            Self::Support(_, motion) => motion.placement.gradient.transpose(),
+        }
+    }
+
+    /// How it takes its surface along; none of what is rigid.
+    pub fn deformation(&self) -> Option<Deformation> {
+        match self {
+            Self::Body(at) => at.deformation(),
+            Self::Support(..) => None,
+        }
+    }
+
+    /// Whether it does not deform.
+    pub fn is_rigid(&self) -> bool {
+        match self {
+            Self::Body(at) => matches!(at.attitude, Attitude::Rigid(_)),
+            Self::Support(..) => true,
+        }
+    }
+
+    /// Whether its velocities are known before its balance.
+    pub fn has_inertia(&self) -> bool {
+        match self {
+            Self::Body(at) => at.body.has_inertia(),
+            Self::Support(..) => true,
+        }
+    }
+
+    /// The gap [m] to what is so far away that cannot be told from zero.
+    pub fn least_distance(&self, distance: f64) -> f64 {
+        match self {
+            Self::Body(at) => at.body.least_distance(distance),
+            Self::Support(support, _) => least_distance(support.size, distance),
+        }
+    }
+
+    /// The place of the second from that of the first, where it is in a cell as seen from that of the first [m].
+    #[inline]
+    pub fn apart([one, other]: &[Self; 2], cell: Cell) -> Vec3 {
+        match (one, other) {
+            (Self::Body(one), Self::Body(other)) => one.apart(other, cell),
+            (Self::Body(one), Self::Support(_, motion)) => -one.from_point(&motion.placement.position),
+            (Self::Support(_, motion), other) => other.motion().placement.position - motion.placement.position,
+        }
     }
 }
 
@@ -259,6 +349,16 @@ impl<'a> MotionAt<'a> {
         self.motions.at(self.model, index)
     }
 
+    /// The two of a pair at the same time.
+    pub(crate) fn parties_of(&self, pair: &Pair) -> [PartyAt<'a>; 2] {
+        self.motions.parties(self.model, pair)
+    }
+
+    /// How a support with a shape moves at this time.
+    pub(crate) fn support_motion(&self, index: usize) -> &'a BodyMotion {
+        &self.motions.supports[index]
+    }
+
     /// The place of its centre of mass from that of another body [m], to all the digits of the state: p₀ − p₀′ has
     /// those of the difference, wherever the origin is. A pinned body has those of one number.
     #[inline]
@@ -277,6 +377,16 @@ impl<'a> MotionAt<'a> {
         }
         let start = self.model.slots(self.index).position().start;
         self.numbers.behind(&[0, 1, 2].map(|i| Extended::from(place[i])), start)
+    }
+
+    /// The place of its centre of mass from a point of space [m], as `from` another body.
+    #[inline]
+    fn from_point(&self, point: &Vec3) -> Vec3 {
+        if self.numbers.low.is_empty() || self.body.pin.is_some() {
+            return self.motion.placement.position - point;
+        }
+        let own = self.model.slots(self.index).position().start;
+        Vec3::from_fn(|i, _| (self.numbers.at(own + i) - Extended::from(point[i])).value())
     }
 
     /// The place of the image of another body in a cell, from that of this one [m].

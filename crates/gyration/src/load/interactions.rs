@@ -1,18 +1,8 @@
 //! What acts between two parties, found by body.
 
 use crate::lattice::{Cell, HERE, opposite};
+use crate::party::Party;
 use std::sync::Arc;
-
-/// One of the two between which something acts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Party {
-    /// The body of this index.
-    Body(usize),
-    /// The support of this index.
-    Support(usize),
-    /// Space itself, where anchors are.
-    Space,
-}
 
 /// Something between a body of a model and another party.
 pub trait Interaction {
@@ -22,16 +12,6 @@ pub trait Interaction {
     /// The cell of the second as seen from that of the first.
     fn cell(&self) -> Cell {
         HERE
-    }
-}
-
-impl Party {
-    /// The index of a body; none of what is no body.
-    pub fn body(self) -> Option<usize> {
-        match self {
-            Self::Body(index) => Some(index),
-            Self::Support(_) | Self::Space => None,
-        }
     }
 }
 
@@ -150,7 +130,7 @@ impl<J: Interaction> Interactions<J> {
     pub fn among(&self, members: &[usize], renumbered: impl Fn(&J, [Party; 2]) -> J) -> Self {
         let place = |party: Party| match party {
             Party::Body(body) => members.binary_search(&body).ok().map(Party::Body),
-            Party::Support(_) | Party::Space => Some(party),
+            Party::Support(_) | Party::SolidSupport(_) | Party::Space => Some(party),
         };
         let within = |end: InteractionEnd<J>| {
             let [Some(one), Some(other)] = end.interaction.parties().map(place) else { return None };

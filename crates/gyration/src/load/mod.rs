@@ -20,6 +20,7 @@ mod slopes;
 mod spring;
 mod wrench;
 
+pub use crate::party::Party;
 pub use applied::Applied;
 pub use body_force::{BodyForce, FieldOfForce, POINT_NAMES};
 pub use bond::{
@@ -28,7 +29,7 @@ pub use bond::{
 };
 pub use couple::Couple;
 pub use formula::{Formula, PLACE_NAMES};
-pub use interactions::{Interaction, InteractionEnd, Interactions, Party};
+pub use interactions::{Interaction, InteractionEnd, Interactions};
 pub use mass_friction::MassFriction;
 pub use own::OwnForces;
 pub use own_friction::{FrictionEntry, FrictionFault, FrictionMatrix, OwnFriction};

@@ -8,9 +8,10 @@
 //! rest length nor dashpot.
 
 use super::Loads;
-use super::interactions::{Interaction, InteractionEnd, Party};
+use super::interactions::{Interaction, InteractionEnd};
 use crate::kinematics::{BodyMotion, Placement};
 use crate::lattice::{Cell, HERE, Lattice};
+use crate::party::Party;
 use crate::tensor::{Mat3, Vec3};
 
 /// A spring with a dashpot in parallel, whatever its ends are.

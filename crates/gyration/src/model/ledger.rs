@@ -37,7 +37,7 @@ impl Model {
             let acts = contact.law_set.laws().iter().any(|law| law.kind().is_central());
             contact.law_set.measure != AreaMeasure::DeformedArea || !acts
         });
-        let is_rigid = |rule: &PairRule| !rule.chain().flatten().any(deforms);
+        let is_rigid = |rule: &PairRule| !rule.members().any(deforms);
         let rules = self.rules.all();
         contacts && rules.iter().all(|rule| rule.laws.measure != AreaMeasure::DeformedArea || is_rigid(rule))
     }
@@ -51,7 +51,7 @@ impl Model {
                 Ok::<(), Infallible>(())
             });
         }
-        let of_rules = self.rules.all().iter().flat_map(|rule| pair_works(&rule.laws));
+        let of_rules = self.rules.all().iter().flat_map(|rule| pair_works(rule, &self.solid_supports));
         let works = loads.iter().flat_map(|load| load.works(&self.supports)).chain(of_rules);
         let works = works.filter(|work| !(potential && matches!(work, Work::Repulsion | Work::Adhesion)));
         let works: Vec<Work> = works.chain(self.bodies.iter().flat_map(|body| body.kind.works())).collect();

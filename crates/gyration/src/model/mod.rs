@@ -7,14 +7,16 @@ mod deformed;
 mod ledger;
 
 use crate::acting::{Interacting, Load, PairAt};
-use crate::body::{Body, Slots};
+use crate::body::{Body, Slots, Solid};
 use crate::contact::Contact;
 use crate::fluid::Fluid;
 use crate::joint::{Joint, JointEnd, JointGraph};
 use crate::lattice::Lattice;
 use crate::ledger::{Energy, Work};
 use crate::load::{Applied, Bond, BondEnd, Interaction, Interactions, Party, Spring, SpringEnd};
-use crate::neighbours::{ImagePairs, Pair, PairRule, PairRules};
+use crate::neighbours::{ImagePairs, Pair, PairRule, PairRules, solid_pairs};
+use crate::pair::PairLaws;
+use crate::solid_support::SolidSupport;
 use crate::support::Support;
 use crate::tensor::Vec3;
 use std::ops::Range;
@@ -27,6 +29,8 @@ pub struct Model {
     pub gravity: Vec3,
     /// The planes.
     pub supports: Arc<[Support]>,
+    /// The supports with a shape.
+    pub solid_supports: Arc<[SolidSupport]>,
     /// The bodies, which the [parts](Self::part) of a model share with it.
     pub bodies: Vec<Arc<Body>>,
     /// What they are called.
@@ -48,6 +52,8 @@ pub struct Model {
     rules: PairRules,
     /// The pairs across cells; none where no bodies of a lattice meet.
     images: Option<ImagePairs>,
+    /// The pairs with supports that have a shape.
+    with_supports: Arc<[Pair]>,
     /// How many pairs these join, and how many of them however far they are.
     pairs: [usize; 2],
     /// The bodies without inertia, ascending.
@@ -84,6 +90,7 @@ impl Model {
         let model = Self {
             gravity,
             supports,
+            solid_supports: Arc::from([]),
             names: vec![Arc::from("body"); bodies.len()],
             bodies,
             fluid,
@@ -97,6 +104,7 @@ impl Model {
             joint_graph: None,
             rules,
             images: None,
+            with_supports: Arc::from([]),
             pairs: [0, 0],
             inertialess,
             slots,
@@ -156,11 +164,18 @@ impl Model {
         let bodies: Vec<Arc<Body>> = bodies.into_iter().map(Into::into).collect();
         assert_eq!(bodies.len(), self.bodies.len(), "each body has one in its place");
         let slots = layout(&bodies);
-        let (blocks, pairs) = (slots.iter().map(Slots::block).collect(), self.rules.count(&bodies));
+        let blocks = slots.iter().map(Slots::block).collect();
         let inertialess = without_inertia(&bodies);
-        let mut model = Self { bodies, inertialess, slots, blocks, pairs, ..self };
+        let mut model = Self { bodies, inertialess, slots, blocks, ..self };
+        model.find_pairs();
         model.has_potential = model.find_potential();
         model.with_ledger()
+    }
+
+    /// The model with supports that have a shape, which rules may name.
+    #[must_use]
+    pub fn with_solid_supports(self, supports: impl Into<Arc<[SolidSupport]>>) -> Self {
+        Self { solid_supports: supports.into(), ..self }
     }
 
     /// The model in a fluid.
@@ -261,11 +276,11 @@ impl Model {
     /// To be called when all bodies are what they are to be.
     ///
     /// # Panics
-    /// If a rule is not of bodies of the model.
+    /// If a rule is not of bodies and supports of the model.
     #[must_use]
     pub fn meeting(mut self, rules: Vec<PairRule>) -> Self {
         self.rules = PairRules::new(self.bodies.len(), rules);
-        self.pairs = self.rules.count(&self.bodies);
+        self.find_pairs();
         self.has_potential = self.find_potential();
         self.with_ledger()
     }
@@ -312,6 +327,7 @@ impl Model {
         let mut part = Self {
             gravity: self.gravity,
             supports: self.supports.clone(),
+            solid_supports: self.solid_supports.clone(),
             blocks: slots.iter().map(Slots::block).collect(),
             slots,
             inertialess: without_inertia(&bodies),
@@ -331,6 +347,7 @@ impl Model {
                 Some(_) => self.rules.of_images(members),
             },
             images: self.images.as_ref().map(|images| images.among(members)),
+            with_supports: Arc::from([]),
             pairs: [0, 0],
             works: Vec::new(),
             energies: Vec::new(),
@@ -338,7 +355,7 @@ impl Model {
             applied: members.iter().filter_map(|body| self.applied.get(*body)).copied().collect(),
             given_up: self.given_up,
         };
-        part.pairs = part.rules.count(&part.bodies);
+        part.find_pairs();
         part.joint_graph = JointGraph::of(part.joints()).map(Arc::new);
         part.enter_ledger();
         part
@@ -396,7 +413,23 @@ impl Model {
         &self.rules
     }
 
-    /// All pairs that there are, in order: of N bodies some N².
+    /// Finds the pairs with supports that have a shape, and how many of all there are.
+    fn find_pairs(&mut self) {
+        self.with_supports = solid_pairs(&self.rules, &self.bodies, &self.solid_supports).into();
+        let is_endless = |pair: &&Pair| {
+            let deforms = |party: &Party| party.body().is_some_and(|body| self.bodies[body].affine().is_some());
+            pair.form.reach.is_none() || pair.parties.iter().any(deforms)
+        };
+        let [all, endless] = self.rules.count(&self.bodies);
+        self.pairs = [all + self.with_supports.len(), endless + self.with_supports.iter().filter(is_endless).count()];
+    }
+
+    /// The pairs of bodies with supports that have a shape, in order.
+    pub fn pairs_with_supports(&self) -> &[Pair] {
+        &self.with_supports
+    }
+
+    /// All pairs of bodies that there are, in order: of N bodies some N².
     pub fn pairs(&self) -> impl Iterator<Item = Pair> {
         let rules = self.rules.all().iter().enumerate();
         rules.flat_map(move |(number, rule)| rule.pairs().flat_map(move |bodies| self.pairs_between(number, bodies)))
@@ -420,7 +453,46 @@ impl Model {
 
     /// Whether a body has a contact, with a support or another body.
     pub fn has_contact(&self, body: usize) -> bool {
-        self.contacts.of(body).next().is_some() || self.meets_bodies(body)
+        self.contacts.of(body).next().is_some() || self.has_pairs(body)
+    }
+
+    /// Whether a body meets others, or supports with a shape.
+    pub fn has_pairs(&self, body: usize) -> bool {
+        self.meets_bodies(body) || self.rules.with_supports_of(body).next().is_some()
+    }
+
+    /// The laws by which a body meets others, and supports with a shape.
+    pub fn pair_laws_of(&self, body: usize) -> impl Iterator<Item = &PairLaws> {
+        let of_bodies = self.rules.of(body).iter().map(|rule| &self.rules.all()[*rule]);
+        of_bodies.chain(self.rules.with_supports_of(body)).map(|rule| &*rule.laws)
+    }
+
+    /// What a party is called; nothing of space.
+    pub fn party_name(&self, party: Party) -> &str {
+        match party {
+            Party::Body(body) => self.name(body),
+            Party::Support(support) => &self.supports[support].name,
+            Party::SolidSupport(support) => &self.solid_supports[support].name,
+            Party::Space => "",
+        }
+    }
+
+    /// The solid of a party; none of a plane and of space.
+    pub fn solid_of(&self, party: Party) -> Option<&Solid> {
+        match party {
+            Party::Body(body) => Some(&self.bodies[body].solid),
+            Party::SolidSupport(support) => Some(&self.solid_supports[support].solid),
+            Party::Support(_) | Party::Space => None,
+        }
+    }
+
+    /// A length by which gaps to a party are judged [m]; none to a plane and to space.
+    pub fn size_of(&self, party: Party) -> Option<f64> {
+        match party {
+            Party::Body(body) => Some(self.bodies[body].size),
+            Party::SolidSupport(support) => Some(self.solid_supports[support].size),
+            Party::Support(_) | Party::Space => None,
+        }
     }
 
     /// Whether a body meets others.

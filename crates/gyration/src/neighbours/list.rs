@@ -10,7 +10,7 @@ use super::spheres::{BodyPair, Sphere, near};
 use super::{Pair, form};
 use crate::body::{Body, Solid};
 use crate::lattice::HERE;
-use crate::load::Interactions;
+use crate::load::{Interactions, Party};
 use crate::pair::PairForm;
 use crate::tensor::Vec3;
 use rstar::RTree;
@@ -32,6 +32,8 @@ pub struct NeighbourList {
     /// Those from which it is made.
     rules: PairRules,
     pairs: Interactions<Pair>,
+    /// How many of these are of two bodies: they come first.
+    of_bodies: usize,
     /// Whether it has all pairs of the rules.
     is_whole: bool,
     /// What bodies may move by in sum before it is made anew [m].
@@ -113,10 +115,10 @@ impl NeighbourList {
     }
 
     /// Makes the list anew where it does not hold for these places [m] any longer; of a lattice it is that of its
-    /// images.
+    /// images. The pairs with supports are all listed, behind those of bodies.
     pub fn update(
         &mut self,
-        rules: &PairRules,
+        (rules, with_supports): (&PairRules, &[Pair]),
         images: Option<&ImagePairs>,
         bodies: &[Arc<Body>],
         place: impl Fn(usize) -> Vec3,
@@ -128,7 +130,7 @@ impl NeighbourList {
         if let Some(images) = images {
             if !is_of_these {
                 *self = Self { rules: rules.clone(), is_whole: true, ..Self::default() };
-                self.list(bodies, images.all().iter().copied(), &mut Forms::default());
+                self.list((bodies, with_supports), images.all().iter().copied(), &mut Forms::default());
             }
             return;
         }
@@ -149,10 +151,10 @@ impl NeighbourList {
             let skin = SKIN * meeting.iter().map(|(_, radius)| radius).sum::<f64>() / meeting.len() as f64;
             *self = Self { rules: rules.clone(), is_whole, skin, sizes: Sizes::of(&meeting), ..Self::default() };
         }
-        self.make(bodies, place);
+        self.make((bodies, with_supports), place);
     }
 
-    fn make(&mut self, bodies: &[Arc<Body>], place: impl Fn(usize) -> Vec3) {
+    fn make(&mut self, (bodies, with_supports): (&[Arc<Body>], &[Pair]), place: impl Fn(usize) -> Vec3) {
         let Self { rules, is_whole, skin, forms, .. } = self;
         // Those of pairs that are no longer near go.
         let mut before = std::mem::take(forms);
@@ -163,13 +165,18 @@ impl NeighbourList {
         let reach = |rule: &PairRule| Some(rule.reach.map_or(f64::INFINITY, |reach| reach.longest() + *skin));
         let near = near(rules, &spheres, reach).into_iter().map(|pair| ImagePair { pair, cell: HERE });
         let near: Vec<ImagePair> = near.collect();
-        self.list(bodies, near, &mut before);
+        self.list((bodies, with_supports), near, &mut before);
         self.places = if self.is_whole { Vec::new() } else { (0..bodies.len()).map(place).collect() };
         self.tree = OnceLock::new();
     }
 
     /// Lists the pairs of the parts of bodies; forms that were known before are taken over.
-    fn list(&mut self, bodies: &[Arc<Body>], near: impl IntoIterator<Item = ImagePair>, before: &mut Forms) {
+    fn list(
+        &mut self,
+        (bodies, with_supports): (&[Arc<Body>], &[Pair]),
+        near: impl IntoIterator<Item = ImagePair>,
+        before: &mut Forms,
+    ) {
         let Self { rules, forms, .. } = self;
         let mut pairs = Vec::new();
         for ImagePair { pair: BodyPair { rule, bodies: both }, cell } in near {
@@ -178,12 +185,14 @@ impl NeighbourList {
             let rules = &*rules;
             pairs.extend(Solid::parts_of(solids.map(|solid| &**solid)).map(|parts| Pair {
                 rule,
-                bodies: both,
+                parties: both.map(Party::Body),
                 cell,
                 parts,
                 form: forms.of(before, rule, &rules.all()[rule], solids, parts),
             }));
         }
+        self.of_bodies = pairs.len();
+        pairs.extend_from_slice(with_supports);
         self.pairs = Interactions::new(bodies.len(), pairs);
     }
 
@@ -195,8 +204,9 @@ impl NeighbourList {
         bodies: &'a [Arc<Body>],
     ) -> impl Iterator<Item = Pair> {
         let solids = both.map(|body| &bodies[body].solid);
-        let pairs = BodyPair { rule, bodies: both };
-        let is_listed = self.pairs.all().binary_search_by(|pair| pair.key().0.cmp(&pairs)).is_ok();
+        let pairs = (rule, both.map(Party::Body));
+        let listed = &self.pairs.all()[..self.of_bodies];
+        let is_listed = listed.binary_search_by(|pair| (pair.rule, pair.parties).cmp(&pairs)).is_ok();
         (!is_listed).then(|| Pair::all_of(&self.rules, rule, both, solids)).into_iter().flatten()
     }
 

@@ -11,11 +11,13 @@
 //! | `spheres` | which spheres about bodies come near one another              |
 //! | `list`    | the pairs that may act, kept while bodies move little         |
 //! | `images`  | the pairs across the cells of a lattice, listed once          |
+//! | `solids`  | the pairs of bodies with supports that have a shape           |
 
 mod boxes;
 mod images;
 mod list;
 mod rules;
+mod solids;
 mod spheres;
 
 pub use boxes::{Bounds, BoxTree};
@@ -23,6 +25,7 @@ pub use images::{ImagePair, ImagePairs};
 pub use list::NeighbourList;
 use rules::masses;
 pub use rules::{PairRule, PairRules};
+pub(crate) use solids::solid_pairs;
 pub use spheres::{BodyPair, Sphere, each_near, each_overlap, near};
 
 use crate::body::Solid;
@@ -31,13 +34,13 @@ use crate::load::{Interaction, Party};
 use crate::pair::PairForm;
 use std::sync::Arc;
 
-/// Two bodies of a model that meet, or convex parts of them.
+/// A body of a model and another, or a support with a shape, that meet, or convex parts of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pair {
     /// The number of the rule that joins them.
     pub rule: usize,
-    /// The indices of the two bodies, A and B, which differ in one cell.
-    pub bodies: [usize; 2],
+    /// The two, A and B: a body, and a body or a support with a shape; two bodies differ in one cell.
+    pub parties: [Party; 2],
     /// The cell of B as seen from that of A.
     pub cell: Cell,
     /// Which part of each.
@@ -46,9 +49,12 @@ pub struct Pair {
     pub form: Arc<PairForm>,
 }
 
+/// By what the pairs of a model are ordered: those of bodies first, each by rule, parties, cell and parts.
+pub type PairKey = (bool, usize, [Party; 2], Cell, [usize; 2]);
+
 impl Interaction for Pair {
     fn parties(&self) -> [Party; 2] {
-        self.bodies.map(Party::Body)
+        self.parties
     }
 
     fn cell(&self) -> Cell {
@@ -66,17 +72,25 @@ impl Pair {
     ) -> impl Iterator<Item = Self> + use<'a> {
         Solid::parts_of(solids.map(|solid| &**solid)).map(move |parts| {
             let form = Arc::new(form(&rules.all()[rule], solids, parts));
-            Self { rule, bodies, cell: HERE, parts, form }
+            Self { rule, parties: bodies.map(Party::Body), cell: HERE, parts, form }
         })
     }
 
+    /// The two, if both are bodies.
+    pub fn bodies(&self) -> Option<[usize; 2]> {
+        match self.parties {
+            [Party::Body(one), Party::Body(other)] => Some([one, other]),
+            _ => None,
+        }
+    }
+
     /// The order in which the pairs of a model stand.
-    pub fn key(&self) -> (BodyPair, Cell, [usize; 2]) {
-        (BodyPair { rule: self.rule, bodies: self.bodies }, self.cell, self.parts)
+    pub fn key(&self) -> PairKey {
+        (self.bodies().is_none(), self.rule, self.parties, self.cell, self.parts)
     }
 }
 
-/// What parts of two bodies do to each other by a rule.
+/// What two parts do to each other by a rule.
 fn form(rule: &PairRule, solids: [&Arc<Solid>; 2], parts: [usize; 2]) -> PairForm {
     let surfaces = [0, 1].map(|end| solids[end].part(parts[end]));
     let radii = [0, 1].map(|end| solids[end].part_radius(parts[end]));

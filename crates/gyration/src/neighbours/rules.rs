@@ -5,11 +5,13 @@ use crate::pair::{Mass, PairLaws, Reach};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Any body of one set meets any body of another, by the same laws.
+/// Any body of one set meets any body of another, or any of some supports with a shape, by the same laws.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairRule {
     /// The indices of the bodies of both sets, ascending.
     pub bodies: [Arc<[usize]>; 2],
+    /// The indices of the supports with a shape that those of the first set meet; the second set is empty then.
+    pub supports: Arc<[usize]>,
     /// What acts between two of them.
     pub laws: Arc<PairLaws>,
     /// Where it begins; none if it is everywhere.
@@ -99,6 +101,12 @@ impl PairRule {
         meets(0) || meets(1)
     }
 
+    /// The bodies that meet anything.
+    pub fn members(&self) -> impl Iterator<Item = usize> + '_ {
+        let alone = if self.supports.is_empty() { &[][..] } else { &self.bodies[0][..] };
+        self.chain().flatten().chain(alone.iter().copied())
+    }
+
     /// So few pairs that any two bodies that they join through any chain are joined through these.
     pub fn chain(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         let star = |own: usize| {
@@ -121,10 +129,20 @@ impl Default for PairRules {
 }
 
 impl PairRules {
+    /// Those with supports that have a shape, and their numbers.
+    pub fn with_supports(&self) -> impl Iterator<Item = (usize, &PairRule)> {
+        self.all.iter().enumerate().filter(|(_, rule)| !rule.supports.is_empty())
+    }
+
+    /// The rules by which a body meets supports with a shape.
+    pub fn with_supports_of(&self, body: usize) -> impl Iterator<Item = &PairRule> {
+        self.with_supports().map(|(_, rule)| rule).filter(move |rule| rule.is_in(0, body))
+    }
+
     /// The rules between so many bodies.
     ///
     /// # Panics
-    /// If the bodies of a set do not ascend, or one does not exist.
+    /// If the bodies of a set do not ascend, or one does not exist, or a rule joins both bodies and supports.
     pub fn new(bodies: usize, all: Vec<PairRule>) -> Self {
         if all.is_empty() {
             return Self::default();
@@ -133,6 +151,8 @@ impl PairRules {
             set.windows(2).all(|two| two[0] < two[1]) && set.last().is_none_or(|last| *last < bodies)
         };
         assert!(all.iter().flat_map(|rule| &rule.bodies).all(ascends), "the sets of a rule are of the {bodies} bodies");
+        let is_of_one_sort = |rule: &PairRule| rule.supports.is_empty() || rule.bodies[1].is_empty();
+        assert!(all.iter().all(is_of_one_sort), "a rule joins bodies, or bodies and supports");
         let mut of: Vec<(usize, usize)> = Vec::new();
         for (number, rule) in all.iter().enumerate() {
             let concerned = rule.bodies.iter().flat_map(|set| set.iter()).filter(|body| rule.concerns(**body));
@@ -186,7 +206,14 @@ impl PairRules {
     #[must_use]
     pub fn among(&self, members: &[usize]) -> Self {
         let mut sets: BTreeMap<usize, [Vec<usize>; 2]> = BTreeMap::new();
-        if members.len() < 2 {
+        for (number, rule) in self.with_supports() {
+            let place = |(place, body): (usize, &usize)| rule.is_in(0, *body).then_some(place);
+            let own: Vec<usize> = members.iter().enumerate().filter_map(place).collect();
+            if !own.is_empty() {
+                sets.insert(number, [own, Vec::new()]);
+            }
+        }
+        if members.len() < 2 && sets.is_empty() {
             return Self::default();
         }
         for (place, body) in members.iter().enumerate() {
@@ -197,7 +224,7 @@ impl PairRules {
         }
         let rules =
             sets.into_iter().map(|(number, sets)| PairRule { bodies: sets.map(Arc::from), ..self.all[number].clone() });
-        Self::new(members.len(), rules.filter(|rule| rule.pairs().next().is_some()).collect())
+        Self::new(members.len(), rules.filter(|rule| rule.members().next().is_some()).collect())
     }
 }
 
@@ -209,7 +236,7 @@ mod tests {
     fn rule(one: &[usize], other: &[usize]) -> PairRule {
         let repulsion = ContactLaw::Repulsion(Repulsion { alpha: 1.0, exponent: 6.0, reference_gap: 1.0 });
         let laws = PairLaws::new(AreaMeasure::ReferenceArea, vec![repulsion]).unwrap();
-        PairRule { bodies: [one.into(), other.into()], laws: Arc::new(laws), reach: None }
+        PairRule { bodies: [one.into(), other.into()], supports: Arc::from([]), laws: Arc::new(laws), reach: None }
     }
 
     /// Two sets, and the pairs that they join.

@@ -138,7 +138,7 @@ mod tests {
         let repulsion = ContactLaw::Repulsion(Repulsion { alpha: 1.0, exponent: 6.0, reference_gap: 1.0 });
         let laws = Arc::new(PairLaws::new(AreaMeasure::ReferenceArea, vec![repulsion]).unwrap());
         let sets = [(0..150).collect(), (50..200).collect()];
-        let rule = PairRule { bodies: sets, laws, reach: Some(Reach::Length(0.02)) };
+        let rule = PairRule { bodies: sets, supports: Arc::from([]), laws, reach: Some(Reach::Length(0.02)) };
         let rules = PairRules::new(200, vec![rule.clone()]);
         let part = |k: usize, step: f64| (k as f64 * step).fract();
         let sphere = |k: usize| match k {

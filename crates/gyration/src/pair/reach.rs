@@ -114,7 +114,9 @@ impl Falling {
     pub fn contact_gap(&self, laws: &PairLaws, bodies: [Mass; 2]) -> f64 {
         let [one, other] = bodies.map(|body| body.mass);
         let weight = self.gravity * one.min(other);
-        let kinetic = 0.5 * one * other / (one + other) * self.speed * self.speed;
+        // A support has an infinite mass.
+        let reduced = if other.is_infinite() { 0.5 * one } else { 0.5 * one * other / (one + other) };
+        let kinetic = reduced * self.speed * self.speed;
         let law = &laws.repulsion;
         let (exponent, unit) = (law.exponent, law.reference_gap);
         let surfaces = bodies.map(|body| body.surface);

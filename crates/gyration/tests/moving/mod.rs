@@ -21,7 +21,7 @@ use gyration::model::Model;
 use gyration::shape::{Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
 use gyration::signal::{Signal, Wave};
 use gyration::state::State;
-use gyration::support::{Support, SupportMotion};
+use gyration::support::{MotionPart, Support, SupportMotion};
 use gyration::tensor::{Mat3, Vec3};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -43,14 +43,15 @@ pub fn laws(exponents: [f64; 4]) -> Vec<ContactLaw> {
 }
 
 pub fn supports() -> Vec<Support> {
-    let wobble = SupportMotion::Oscillation { direction: Vec3::z(), amplitude: 0.05, frequency: 0.7, phase: 0.4 };
+    let wobble = MotionPart::Oscillation { direction: Vec3::z(), amplitude: 0.05, frequency: 0.7, phase: 0.4 };
+    let moving = |part: MotionPart| SupportMotion::new(vec![part]);
     vec![
-        Support { name: "table".into(), origin: Vec3::zeros(), normal: Vec3::z(), motion: wobble },
+        Support { name: "table".into(), origin: Vec3::zeros(), normal: Vec3::z(), motion: moving(wobble) },
         Support {
             name: "slope".into(),
             origin: Vec3::new(-2.0, 0.0, -1.0),
             normal: Vec3::new(0.6, 0.0, 0.8),
-            motion: SupportMotion::Velocity(Vec3::new(0.1, -0.2, 0.05)),
+            motion: moving(MotionPart::Velocity(Vec3::new(0.1, -0.2, 0.05))),
         },
     ]
 }

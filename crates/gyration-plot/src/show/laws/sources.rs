@@ -38,12 +38,21 @@ impl<'a> LawSource<'a> {
         });
         let groups = Groups::of(model, resolved);
         let of_pairs = model.rules().all().iter().map(|rule| Self {
-            name: groups.name(model, rule.count(), rule.pairs()),
+            name: match &rule.supports[..] {
+                [] => groups.name(model, rule.count(), rule.pairs()),
+                supports => names_of(model, supports),
+            },
             laws: rule.laws.laws(),
             is_between_bodies: true,
         });
         of_support.chain(of_pairs).collect()
     }
+}
+
+/// The names of supports with a shape.
+fn names_of(model: &Model, supports: &[usize]) -> String {
+    let names: Vec<&str> = supports.iter().map(|support| model.solid_supports[*support].name.as_str()).collect();
+    names.join(", ")
 }
 
 /// The bodies of each word by which contacts name many.

@@ -5,6 +5,7 @@
 use crate::record::surfaces::Surfaces;
 use crate::replay::SurfaceCells;
 use gyration::body::Body;
+use gyration::model::Model;
 use gyration::tensor::Vec3;
 use gyration_record::export::vtk::Topology;
 use std::sync::Arc;
@@ -31,10 +32,10 @@ enum Representation {
 }
 
 impl Figures {
-    pub(super) fn of(bodies: &[Arc<Body>]) -> Self {
-        let surfaces = Surfaces::of(bodies);
+    pub(super) fn of(model: &Model) -> Self {
+        let (surfaces, bodies) = (Surfaces::of(model), &model.bodies);
         let each = (ALL_TRIANGLES / bodies.len().max(1)).clamp(1, TRIANGLES);
-        let skins: Vec<SurfaceCells> = surfaces.distinct().iter().map(|body| SurfaceCells::of(body, each)).collect();
+        let skins: Vec<SurfaceCells> = surfaces.distinct().iter().map(|solid| SurfaceCells::of(solid, each)).collect();
         let figure = |(body, surface): (&Arc<Body>, &Option<usize>)| match surface {
             Some(surface) => Representation::Skin(*surface),
             None => Representation::Points(

@@ -43,7 +43,7 @@ impl Sheets {
 
     /// Whether any support moves.
     pub(super) fn move_with_time(&self) -> bool {
-        self.sheets.iter().any(|sheet| sheet.motion != SupportMotion::Fixed)
+        self.sheets.iter().any(|sheet| !sheet.motion.is_fixed())
     }
 
     /// The sheets at a time \[s\].
@@ -82,7 +82,7 @@ impl Sheet {
         let u = (along - n * n.dot(&along)).normalize() * half;
         let v = n.cross(&u);
         let corners = [foot - u - v, foot + u - v, foot + u + v, foot - u + v];
-        Self { name: support.name.clone(), corners, motion: support.motion }
+        Self { name: support.name.clone(), corners, motion: support.motion.clone() }
     }
 }
 

@@ -45,7 +45,7 @@ impl SurfaceSeries {
         let replay = Replay::open(recording)?;
         let scalar = recording.arrays().iter().filter(|array| array.dims == ["time"] && array.name != "time");
         Ok(Self {
-            figures: Figures::of(&replay.model().bodies),
+            figures: Figures::of(replay.model()),
             sheets: Sheets::of(recording, replay.model())?,
             scalars: scalar.map(|array| array.name.clone()).collect(),
             recording: recording.clone(),

@@ -29,16 +29,16 @@ pub(super) fn warning(model: &Model, start: &State, rtol: f64) -> Option<String>
     let far_ones = joined.filter(|two| two.bodies.iter().any(|body| far(*body)));
     let mut pairs = far_ones.flat_map(|two| two.pairs(model).map(move |pair| (two, pair))).take(MOST_PAIRS);
     pairs.find_map(|(two, pair)| {
-        let distance = place(pair.bodies[0]).max(place(pair.bodies[1]));
+        let distance = place(two.bodies[0]).max(place(two.bodies[1]));
         let trial = TrialPair::of(model, start, &two, &pair);
-        let is_pinned = pair.bodies.iter().any(|body| model.bodies[*body].pin.is_some());
+        let is_pinned = two.bodies.iter().any(|body| model.bodies[*body].pin.is_some());
         let gap = if is_pinned { trial.turning_gap()? } else { trial.gap()? };
         // A repulsion d^−ν turns the rounding of a gap into so much of its energy.
         let error = pair.form.laws.repulsion.exponent * DIGIT * distance / gap;
         if error <= MARGIN * rtol {
             return None;
         }
-        let [one, other] = pair.bodies.map(|body| model.name(body));
+        let [one, other] = two.bodies.map(|body| model.name(body));
         let (distance, gap, digit) = (significant(distance, 3), significant(gap, 2), DIGIT * distance);
         Some(format!(
             "\"{one}\" and \"{other}\" are {distance} m from the origin, where places are known to {digit:.1e} m, and \

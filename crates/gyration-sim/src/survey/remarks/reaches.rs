@@ -47,7 +47,7 @@ fn of_a_length(model: &Model, start: &State, rule: usize, reach: f64) -> Option<
     let trial = TrialPair::of(model, start, &fastest, &pair);
     let gap = trial.least_gap();
     let reference = pair.form.laws.repulsion.reference_gap;
-    let [one, other] = pair.bodies.map(|body| model.name(body));
+    let [one, other] = fastest.bodies.map(|body| model.name(body));
     let least = match gap {
         Some(gap) if reach < LEAST * gap => {
             format!("they turn back at a gap of about {} m", significant(gap, 2))
@@ -77,13 +77,14 @@ fn of_gaps(model: &Model, start: &State, rule: usize) -> Option<String> {
     };
     let pairs = || Joined::of_rule(model, rule).take(MOST_PAIRS);
     let told = |two: Option<Joined>, most: f64| {
-        let pair = two?.pairs(model).last()?;
+        let two = two?;
+        let pair = two.pairs(model).last()?;
         let change = ReachChange::of(model, start, &pair).filter(|change| change.part > most)?;
         let part = match change.part.is_finite() {
             true => format!("smaller by {} of it", significant(change.part, 2)),
             false => "another".to_owned(),
         };
-        let [one, other] = pair.bodies.map(|body| model.name(body));
+        let [one, other] = two.bodies.map(|body| model.name(body));
         let (reach, gap) = (significant(pair.form.reach?, 3), significant(change.gap, 2));
         let exponent = pair.form.laws.repulsion.exponent;
         Some(format!(

@@ -4,7 +4,8 @@
 use super::joined::Joined;
 use super::trial::stored;
 use crate::format::significant;
-use crate::survey::Approach;
+use crate::survey::{Approach, Encounter};
+use gyration::Party;
 use gyration::body::Body;
 use gyration::contact::{ContactLaw, LawKind};
 use gyration::dynamics::{Workspace, rates};
@@ -33,7 +34,9 @@ pub(super) fn warning(model: &Model, start: &State) -> Option<String> {
     let planes = bodies.flat_map(|index| {
         (0..model.supports.len()).filter_map(move |support| Near::of_support(model, start, (index, support)))
     });
-    let mut found: Vec<Near> = pairs.chain(planes).collect();
+    let solids = model.pairs_with_supports().iter().take(MOST_PAIRS);
+    let solids = solids.filter_map(|pair| Near::of_solid_support(model, start, pair));
+    let mut found: Vec<Near> = pairs.chain(planes).chain(solids).collect();
     found.sort_by(|one, other| other.energy.total_cmp(&one.energy));
     if !found.first()?.dwarfs(model, start) {
         return None;
@@ -122,7 +125,7 @@ impl Near {
 
     /// A pair at the start, unless its balls are farther apart than they are large.
     fn of_pair(model: &Model, start: &State, two: &Joined, pair: &Pair) -> Option<Self> {
-        let bodies: [&Body; 2] = pair.bodies.map(|body| &*model.bodies[body]);
+        let bodies: [&Body; 2] = two.bodies.map(|body| &*model.bodies[body]);
         let motions = two.motions(model, start);
         let between = motions[0].placement.position - motions[1].placement.position;
         let reach = |end: usize| {
@@ -133,9 +136,24 @@ impl Near {
             return None;
         }
         let loads = stored((&pair.form, pair.parts), bodies, &motions)?;
-        let [one, other] = pair.bodies.map(|body| model.name(body));
+        let [one, other] = two.bodies.map(|body| model.name(body));
         let names = format!("\"{one}\" and \"{other}\"");
-        Some(Self { names, bodies: pair.bodies.map(Some), gap: loads.gap, energy: loads.energy })
+        Some(Self { names, bodies: two.bodies.map(Some), gap: loads.gap, energy: loads.energy })
+    }
+
+    /// A body and a support with a shape at the start, unless they are farther apart than they are large.
+    fn of_solid_support(model: &Model, start: &State, pair: &Pair) -> Option<Self> {
+        let encounter = Encounter::new(model, start, pair)?;
+        let gap = encounter.initial_gap;
+        if gap > encounter.size {
+            return None;
+        }
+        // As of a support that is a plane.
+        let [_, force] = encounter.at(gap)?;
+        let energy = force * gap / (pair.form.laws.repulsion.exponent - 1.0);
+        let [one, other] = pair.parties.map(|party| model.party_name(party));
+        let names = format!("\"{one}\" and the support \"{other}\"");
+        Some(Self { names, bodies: pair.parties.map(Party::body), gap, energy })
     }
 
     /// A body and a support at the start.

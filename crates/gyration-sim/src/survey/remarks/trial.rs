@@ -31,7 +31,7 @@ pub(super) struct TrialPair<'a> {
 impl<'a> TrialPair<'a> {
     /// A pair of the parts of two bodies of a model.
     pub fn of(model: &'a Model, start: &State, two: &Joined, pair: &Pair) -> Self {
-        let bodies = pair.bodies.map(|body| &*model.bodies[body]);
+        let bodies = two.bodies.map(|body| &*model.bodies[body]);
         let surfaces = [0, 1].map(|end| bodies[end].solid.part(pair.parts[end]));
         let motions = two.motions(model, start);
         let form = PairForm::new(Arc::clone(&pair.form.laws), None, surfaces);

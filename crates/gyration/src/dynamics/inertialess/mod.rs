@@ -135,7 +135,7 @@ fn felt<'a>(at: &BodyAt<'a>) -> impl Iterator<Item = usize> + use<'a> {
     let model = at.model;
     let springs = model.springs_of(at.index).filter(|end| end.interaction.law.damping > 0.0);
     let pairs = at.pairs().filter(|pair| pair.acts() && pair.slopes.is_some_and(|slopes| slopes.by_rate.is_some()));
-    springs.filter_map(|end| end.other().body()).chain(pairs.map(|pair| pair.other()))
+    springs.filter_map(|end| end.other().body()).chain(pairs.filter_map(|pair| pair.other_body()))
 }
 
 /// The body would move for nothing: its resistance cannot be inverted.

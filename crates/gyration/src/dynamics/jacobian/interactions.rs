@@ -30,10 +30,11 @@ pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usiz
                 ((end.other_body(), end.cell()), coupling)
             }
             Load::Pair(pair) => {
+                let Some(other) = pair.other_body() else { return Ok(()) };
                 let (slopes, own) = (sloped(&pair), pair.end.end);
                 let by_place = slopes.by_place[own][1 - own];
                 let by_rate = slopes.by_rate.as_ref().map(|by_rate| by_rate[own][1 - own]);
-                ((pair.other(), pair.end.cell()), Coupling { by_place, by_rate })
+                ((other, pair.end.cell()), Coupling { by_place, by_rate })
             }
             Load::Joint(end) => match end.other().body() {
                 Some(other) => {

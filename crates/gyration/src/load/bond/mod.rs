@@ -15,11 +15,12 @@ pub use dashpot::Dashpot;
 pub use gram::{INVARIANT_NAMES, InvariantPotential};
 pub use stiffness::{BondAxes, BondStiffness, Stiffness6};
 
-use super::interactions::{Interaction, InteractionEnd, Party};
+use super::interactions::{Interaction, InteractionEnd};
 use super::resistance::Mat12;
 use super::{LoadSlopes, Loads};
 use crate::kinematics::BodyMotion;
 use crate::lattice::{Cell, HERE};
+use crate::party::Party;
 use crate::tensor::{Mat3, Vec3};
 use gram::{Span, SpanSlopes};
 use gyration_expression::{Expression, Scratch, Undefined};
