@@ -27,7 +27,7 @@ fn meeting(model: &gyration::model::Model, state: &gyration::state::State) -> (G
     let motion = state.motion(model, 0);
     let support = &model.supports[0];
     let field = support.gap_field(&motion.placement, 0.0);
-    let relative = RelativeMotion::to(support, &motion.velocity, 0.0);
+    let relative = RelativeMotion::to(support, &motion, 0.0);
     let turn = Turn::read(model.slots(0), &state.bodies);
     (field, RigidMotion::new(&relative, &motion.placement.gradient, turn.spin))
 }

@@ -11,8 +11,6 @@ use gyration::instant::{BodyAt, MotionAt};
 use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
-use gyration::support::SupportMotion;
-use gyration::tensor::Vec3;
 use gyration_ode::Components;
 use std::convert::Infallible;
 use std::ops::Range;
@@ -96,16 +94,12 @@ fn pushed(at: &BodyAt, slopes: &[f64], scratch: &mut Scratch) -> Result<f64, Ina
     let acceleration = norm(slots.velocity()) + norm(slots.rate()) * body.size;
     let mut forces = 0.0;
     each_push(at, scratch, |push| forces += push.force)?;
-    let supports = model.contacts_of(index).map(|contact| fastest_motion(&model.supports[contact.support].motion));
+    let place = &at.motion.placement.position;
+    let supports = model.contacts_of(index).map(|contact| model.supports[contact.support].motion.bound(place).speed);
     let solids = model.rules().with_supports_of(index).flat_map(|rule| rule.supports.iter());
     let solids = solids.map(|support| model.solid_supports[*support].largest_speed());
     let carried = supports.chain(solids).fold(0.0, f64::max);
     Ok((acceleration.max(forces / body.solid.mass.mass) * body.size).sqrt().max(carried))
-}
-
-/// The largest speed of a support [m/s].
-fn fastest_motion(motion: &SupportMotion) -> f64 {
-    motion.bound(&Vec3::zeros()).speed
 }
 
 /// √(Σk/m) of the springs at a body [1/s].

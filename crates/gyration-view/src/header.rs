@@ -88,7 +88,7 @@ pub struct Header {
 }
 
 /// Attributes that stand in the header under their own names; others are of the summary.
-const OWN: [&str; 11] = [
+const OWN: [&str; 12] = [
     "title",
     "scene_name",
     "scene",
@@ -99,6 +99,7 @@ const OWN: [&str; 11] = [
     "tolerances",
     "bodies",
     "supports",
+    "solid_supports",
     "gravity",
 ];
 

@@ -41,11 +41,32 @@ export interface Oscillation {
   phase: number;
 }
 
+export interface Rotation {
+  axis: Vec3;
+  point: Vec3;
+  rate: number;
+}
+
+export type MotionPart = { velocity: Vec3 } | { oscillate: Oscillation } | { rotate: Rotation };
+
+/** Nothing, a motion, or several that add up. */
+export type Motion = null | MotionPart | MotionPart[];
+
 export interface Support {
   name: string;
   origin: Vec3;
   normal: Vec3;
-  motion: null | { velocity: Vec3 } | { oscillate: Oscillation };
+  motion: Motion;
+}
+
+/** A support with a shape, before any motion. */
+export interface SolidSupport {
+  name: string;
+  surface: number | null;
+  position: Vec3;
+  /** The rows of its rotation. */
+  gradient: number[];
+  motion: Motion;
 }
 
 /** How a run ended, as the recording tells it. */
@@ -91,6 +112,7 @@ export interface Header {
   tolerances?: { rtol: number; atol: number };
   bodies: Body[];
   supports: Support[];
+  solid_supports?: SolidSupport[];
   surfaces: { points: number; triangles: number }[];
   arrays: ArraySpec[];
   /** CSV name, array, place in its row. */

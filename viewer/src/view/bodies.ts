@@ -97,7 +97,7 @@ export function* geometries(recording: Recording, triangles: number): Generator<
   }
 }
 
-function geometryOf(surface: Surface, most: number): BufferGeometry {
+export function geometryOf(surface: Surface, most: number): BufferGeometry {
   const { points, triangles } = coarsened(surface.points, surface.triangles, most);
   // What was made coarse has edges that the body has not.
   const crease = triangles === surface.triangles ? CREASE : COARSE_CREASE;

@@ -15,6 +15,7 @@ import { OutlineLayer } from "./outlines";
 import { directionsFor } from "./quality";
 import { SpringLayer } from "./springs";
 import type { Stage } from "./stage";
+import { SolidLayer } from "./solids";
 import { SupportLayer } from "./supports";
 import { TrailLayer } from "./trails";
 import { VectorLayer } from "./vectors";
@@ -36,6 +37,7 @@ export class SceneView {
   readonly frame = new Frame();
   readonly colors: Colors;
   readonly supports: SupportLayer;
+  solids: SolidLayer;
   private bodies: BodyLayer;
   private readonly outlines: OutlineLayer;
   private readonly springs: SpringLayer;
@@ -61,12 +63,13 @@ export class SceneView {
     this.bodies = new BodyLayer(recording, stage.quality);
     this.outlines = new OutlineLayer(recording);
     this.supports = new SupportLayer(recording);
+    this.solids = new SolidLayer(recording, stage.quality);
     this.springs = new SpringLayer(recording);
     this.vectors = new VectorLayer(recording);
     this.trails = new TrailLayer(recording);
     this.ghosts = new GhostLayer(recording, stage.quality);
     stage.root.clear();
-    stage.root.add(this.supports.group, this.bodies.group, this.outlines.group, this.vectors.group);
+    stage.root.add(this.supports.group, this.solids.group, this.bodies.group, this.outlines.group, this.vectors.group);
     stage.root.add(this.springs.lines, this.trails.lines, this.ghosts.group);
     this.cast();
     this.fit(kept ?? framed(recording));
@@ -88,10 +91,13 @@ export class SceneView {
 
   /** After a surface has come. */
   surfaced(): void {
-    this.bodies.group.removeFromParent();
-    this.bodies.dispose();
+    for (const layer of [this.bodies, this.solids]) {
+      layer.group.removeFromParent();
+      layer.dispose();
+    }
     this.bodies = new BodyLayer(this.recording, this.stage.quality);
-    this.stage.root.add(this.bodies.group);
+    this.solids = new SolidLayer(this.recording, this.stage.quality);
+    this.stage.root.add(this.bodies.group, this.solids.group);
     this.cast();
   }
 
@@ -117,6 +123,8 @@ export class SceneView {
     this.outlines.paint(this.colors.at(shown.coloring, frame));
     this.springs.place(frame);
     this.supports.group.visible = shown.supports;
+    this.solids.group.visible = shown.supports;
+    this.solids.place(frame.time);
     this.supports.place(frame.time, this.middle(), LIGHT.key.value.toArray() as Vec3);
     this.vectors.shown = shown;
     this.vectors.place(frame);
@@ -150,6 +158,7 @@ export class SceneView {
   dispose(): void {
     this.bodies.dispose();
     this.supports.dispose();
+    this.solids.dispose();
     this.springs.dispose();
     this.vectors.dispose();
     this.trails.dispose();

@@ -17,6 +17,7 @@ import {
 import type { Support, Vec3 } from "../data/header";
 import type { Recording } from "../data/recording";
 import { roundBelow } from "../math/format";
+import { applied, type Carriage, carriage, placeOf } from "../math/carriage";
 import { across, cross, dot } from "../math/mat3";
 import { ShadowLayer } from "./shadows";
 
@@ -48,17 +49,10 @@ void main() {
 	#include <colorspace_fragment>
 }`;
 
-/** Where a support is: its displacement at a time [m]. */
-export function displacement(support: Support, time: number): Vec3 {
-  const { motion } = support;
-  if (!motion) return [0, 0, 0];
-  if ("velocity" in motion) return scaled(motion.velocity, time);
-  const { direction, amplitude, frequency, phase } = motion.oscillate;
-  return scaled(direction, amplitude * Math.sin(2 * Math.PI * frequency * time + phase));
-}
-
-function scaled(v: Vec3, factor: number): Vec3 {
-  return [factor * v[0], factor * v[1], factor * v[2]];
+/** Where a support is at a time [s]: a point of the plane [m], and its normal. */
+export function planeAt(support: Support, time: number): { origin: Vec3; normal: Vec3; carried: Carriage } {
+  const carried = carriage(support.motion, time);
+  return { origin: placeOf(carried, support.origin), normal: applied(carried.turn, support.normal), carried };
 }
 
 interface Plane {
@@ -114,9 +108,8 @@ export class SupportLayer {
   place(time: number, center: Vec3, light: Vec3): void {
     const { extent, spacing } = this;
     for (const { support, axes, grid, shadows } of this.planes) {
-      const moved = displacement(support, time);
-      const origin = support.origin.map((value, k) => value + moved[k]) as Vec3;
-      const [u, v, normal] = axes;
+      const { origin, normal, carried } = planeAt(support, time);
+      const [u, v] = axes.map((axis) => applied(carried.turn, axis));
       const height = dot(center, normal) - dot(origin, normal);
       const middle = center.map((value, k) => value - height * normal[k]) as Vec3;
       const basis = [u, v, normal].map((axis, k) => new Vector3(...axis).multiplyScalar(k < 2 ? extent : 1));

@@ -10,7 +10,7 @@ import type { Vec3 } from "../data/header";
 import type { Recording } from "../data/recording";
 import { dot, leftCauchyGreen, norm, symmetricAxes, unit } from "../math/mat3";
 import { Arrows, overlay } from "./arrows";
-import { displacement } from "./supports";
+import { planeAt } from "./supports";
 
 const FORCE = "#d2553f";
 const VELOCITY = "#3f8f6b";
@@ -157,11 +157,10 @@ function lowestPoint(recording: Recording, frame: Frame, body: number): Vec3 {
   const P = frame.gradient.subarray(9 * body, 9 * body + 9);
   let best: { gap: number; at: Vec3 } | null = null;
   for (const support of header.supports) {
-    const n = support.normal;
+    const { origin, normal: n } = planeAt(support, frame.time);
     const m: Vec3 = [0, 1, 2].map((k) => n[0] * P[k] + n[1] * P[3 + k] + n[2] * P[6 + k]) as Vec3;
     const [height, lowest] = lowestReference(points, m, LOWEST_BAND * header.bodies[body].size);
-    const moved = displacement(support, frame.time);
-    const away: Vec3 = [x, y, z].map((value, k) => value - support.origin[k] - moved[k]) as Vec3;
+    const away: Vec3 = [x, y, z].map((value, k) => value - origin[k]) as Vec3;
     const gap = dot(away, n) + height;
     if (best && gap >= best.gap) continue;
     const [X, Y, Z] = lowest;

@@ -146,7 +146,7 @@ fn supports_move(recorded: &RecordedScene, probes: &[Probe]) -> bool {
     let height = |support: &Support, probe: &Probe| support.gap(&Vec3::zeros(), probe.time);
     recorded.supports.iter().any(|support| {
         let heights = probes.iter().map(|probe| height(support, probe) - height(support, &probes[0]));
-        heights.fold(0.0, |largest: f64, height| largest.max(height.abs())) > VISIBLE * size
+        support.motion.turns() || heights.fold(0.0, |largest: f64, height| largest.max(height.abs())) > VISIBLE * size
     })
 }
 

@@ -67,7 +67,7 @@ impl Ground {
 
 /// The square of the plane below the bodies.
 fn patch(support: &Support, time: f64, site: &Site, view: &View) -> Option<Ground> {
-    let normal = support.normal;
+    let normal = support.at(time).normal;
     if normal.dot(&view.toward) < LEAST_FACING {
         return None;
     }
@@ -86,7 +86,7 @@ impl Cut {
     ///
     ///   (c + a u + b w − o)·n = 0,   c the mean place of the bodies
     fn of(support: &Support, time: f64, mean: &Vec3, view: &View) -> Option<Self> {
-        let normal = view.project(&support.normal);
+        let normal = view.project(&support.at(time).normal);
         let in_plane = libm::hypot(normal[0], normal[1]);
         if in_plane < LEAST_IN_PLANE {
             return None;

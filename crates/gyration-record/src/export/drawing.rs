@@ -5,7 +5,7 @@
 use crate::Attributes;
 use crate::error::RecordError;
 use crate::recording::Recording;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 use serde::Deserialize;
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -18,6 +18,7 @@ pub(super) type Mat3 = Matrix3<f64>;
 pub(super) struct Drawing {
     pub bodies: Vec<DrawnBody>,
     pub supports: Vec<DrawnSupport>,
+    pub solid_supports: Vec<DrawnSolidSupport>,
     /// The distinct surfaces.
     pub surfaces: Vec<SurfaceMesh>,
     /// Against gravity; z without any.
@@ -48,14 +49,37 @@ pub(super) struct DrawnSupport {
     pub name: String,
     pub origin: [f64; 3],
     pub normal: [f64; 3],
-    motion: Option<DrawnMotion>,
+    pub motion: DrawnMotion,
+}
+
+/// A support with a shape.
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct DrawnSolidSupport {
+    pub name: String,
+    /// Index of its surface.
+    pub surface: Option<usize>,
+    /// Where its centre of mass is before any motion \[m\].
+    pub position: [f64; 3],
+    /// The rows of its rotation before any motion.
+    gradient: [f64; 9],
+    pub motion: DrawnMotion,
+}
+
+/// Nothing, a motion, or several that add up.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+pub(super) enum DrawnMotion {
+    None,
+    One(DrawnMotionPart),
+    Several(Vec<DrawnMotionPart>),
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum DrawnMotion {
+pub(super) enum DrawnMotionPart {
     Velocity([f64; 3]),
     Oscillate { direction: [f64; 3], amplitude: f64, frequency: f64, phase: f64 },
+    Rotate { axis: [f64; 3], point: [f64; 3], rate: f64 },
 }
 
 /// A surface of triangles.
@@ -79,11 +103,17 @@ impl Drawing {
         }
         let bodies: Vec<DrawnBody> =
             serde_json::from_value(bodies_with_outlines(attributes)).map_err(strange(recording, "bodies"))?;
-        let count = bodies.iter().filter_map(|body| body.surface).max().map_or(0, |last| last + 1);
+        let solid_supports: Vec<DrawnSolidSupport> = match attributes.get("solid_supports") {
+            Some(_) => attribute(recording, "solid_supports")?,
+            None => Vec::new(),
+        };
+        let of_supports = solid_supports.iter().filter_map(|support| support.surface);
+        let count = bodies.iter().filter_map(|body| body.surface).chain(of_supports).max().map_or(0, |last| last + 1);
         let gravity = Vec3::from(attribute::<[f64; 3]>(recording, "gravity")?);
         Ok(Self {
             bodies,
             supports: attribute(recording, "supports")?,
+            solid_supports,
             surfaces: (0..count).map(|k| SurfaceMesh::read(recording, k)).collect::<Result<_, _>>()?,
             up: (-gravity).try_normalize(0.0).unwrap_or_else(Vec3::z),
         })
@@ -133,21 +163,51 @@ impl DrawnBody {
     }
 }
 
-impl DrawnSupport {
-    /// Whether it moves.
-    pub fn moves(&self) -> bool {
-        self.motion.is_some()
+impl DrawnSolidSupport {
+    /// Its rotation before any motion.
+    pub fn turn(&self) -> UnitQuaternion<f64> {
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(Mat3::from_row_slice(&self.gradient)))
+    }
+}
+
+impl DrawnMotion {
+    fn parts(&self) -> &[DrawnMotionPart] {
+        match self {
+            Self::None => &[],
+            Self::One(part) => std::slice::from_ref(part),
+            Self::Several(parts) => parts,
+        }
     }
 
-    /// Its displacement at a time \[m\].
-    pub fn displacement(&self, time: f64) -> Vec3 {
-        match self.motion {
-            None => Vec3::zeros(),
-            Some(DrawnMotion::Velocity(velocity)) => Vec3::from(velocity) * time,
-            Some(DrawnMotion::Oscillate { direction, amplitude, frequency, phase }) => {
-                Vec3::from(direction) * (amplitude * libm::sin(TAU * frequency * time + phase))
+    /// Whether it is one.
+    pub fn moves(&self) -> bool {
+        !self.parts().is_empty()
+    }
+
+    /// Whether it turns.
+    pub fn turns(&self) -> bool {
+        self.parts().iter().any(|part| matches!(part, DrawnMotionPart::Rotate { .. }))
+    }
+
+    /// How a support is carried until a time: x = R x₀ + b, R and b \[m\].
+    pub fn carried(&self, time: f64) -> (UnitQuaternion<f64>, Vec3) {
+        let (mut turn, mut shift, mut displacement) = (UnitQuaternion::identity(), Vec3::zeros(), Vec3::zeros());
+        for part in self.parts() {
+            match *part {
+                DrawnMotionPart::Velocity(velocity) => displacement += Vec3::from(velocity) * time,
+                DrawnMotionPart::Oscillate { direction, amplitude, frequency, phase } => {
+                    displacement += Vec3::from(direction) * (amplitude * libm::sin(TAU * frequency * time + phase));
+                }
+                DrawnMotionPart::Rotate { axis, point, rate } => {
+                    let (sin, cos) = libm::sincos(0.5 * rate * time);
+                    let half = Vec3::from(axis) * sin;
+                    let by = UnitQuaternion::from_quaternion(Quaternion::new(cos, half.x, half.y, half.z));
+                    shift = Vec3::from(point) + by * (shift - Vec3::from(point));
+                    turn = by * turn;
+                }
             }
         }
+        (turn, shift + displacement)
     }
 }
 

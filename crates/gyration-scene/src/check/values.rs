@@ -229,10 +229,6 @@ fn directions(support: &Placed<Support>, reporter: &mut Reporter<'_>) {
         if direction(written).is_none() {
             reporter.note(&place, format!("the {what} is zero"), "write a direction, [0, 0, 1]");
         }
-        if matches!(motion, Motion::Rotate(_)) && value.shape.is_none() {
-            let message = "this version does not turn planes";
-            reporter.note(&key.key("rotate"), message, "give the support a `shape` in the place of its plane");
-        }
     }
 }
 

@@ -75,7 +75,10 @@ pub(crate) fn horizon(
         let Some(surface) = &body.solid.surface else { continue };
         for contact in model.contacts_of(index) {
             let support = &model.supports[contact.support];
-            let approach = PlaneApproach::of(model, contact.support, time, end, surface, *radius);
+            let seen = SeenFromSupport::of_plane(support, time, end);
+            let end = seen.as_ref().map_or(end, |seen| &seen.body);
+            let mut approach = PlaneApproach::of(model, contact.support, time, end, surface, *radius);
+            approach.acceleration += seen.map_or(0.0, |seen| seen.bend);
             let frequency = support.motion.highest_frequency();
             step = step.min(if frequency > 0.0 {
                 let near = surface.smallest_gap(&approach.field).0 < body.size;
@@ -193,7 +196,12 @@ impl<'a> PlaneApproach<'a> {
     fn of(model: &Model, index: usize, time: f64, end: &StepEnd, surface: &'a Surface, radius: f64) -> Self {
         let (support, motion) = (&model.supports[index], &end.motion);
         let mut field = support.gap_field(&motion.placement, time);
-        let mut velocity = RelativeMotion::to(support, &motion.velocity, time).velocity;
+        if support.motion.turns() {
+            // As seen from the support.
+            let normal = support.at(time).normal;
+            return Self::along(&normal, (end, &end.acceleration), (surface, radius), (field, motion.velocity.velocity));
+        }
+        let mut velocity = RelativeMotion::to(support, motion, time).velocity;
         if support.motion.oscillates() {
             let (way, speed) = drift(support, time);
             field.height = (motion.placement.position - support.origin - way).dot(&support.normal) - reach(support);

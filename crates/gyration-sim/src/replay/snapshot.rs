@@ -128,7 +128,7 @@ impl BodySnapshot<'_> {
     fn relative_to(&self, contact: &Contact) -> (GapField, RelativeMotion) {
         let support = &self.model.supports[contact.support];
         let field = support.gap_field(&self.motion.placement, self.time);
-        (field, RelativeMotion::to(support, &self.motion.velocity, self.time))
+        (field, RelativeMotion::to(support, &self.motion, self.time))
     }
 
     fn contacts(&self) -> impl Iterator<Item = &Contact> {

@@ -2,10 +2,10 @@
 
 use super::AreaMeasure;
 use super::law_set::LawSet;
-use crate::kinematics::Velocity;
+use crate::kinematics::BodyMotion;
 use crate::support::Support;
 use crate::surface::{GapClosed, GapField, MomentPlan, Moments, Surface};
-use crate::tensor::{Mat3, Vec3, cofactor};
+use crate::tensor::{Mat3, Vec3, cofactor, cross_matrix};
 
 /// The support's normal and the motion relative to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,7 +14,7 @@ pub struct RelativeMotion {
     pub normal: Vec3,
     /// w₀ [m/s], relative velocity of the centre of mass.
     pub velocity: Vec3,
-    /// W = Ṗ [1/s].
+    /// W = Ṗ [1/s], less [ω]× P at a support that turns.
     pub gradient_rate: Mat3,
 }
 
@@ -43,11 +43,14 @@ pub struct Meeting<'a> {
 impl RelativeMotion {
     /// The motion of a body relative to a support.
     #[inline]
-    pub fn to(support: &Support, velocity: &Velocity, time: f64) -> Self {
+    pub fn to(support: &Support, motion: &BodyMotion, time: f64) -> Self {
+        let BodyMotion { placement, velocity } = motion;
+        let carrying = support.motion_at(time);
+        let turned = carrying.spin.map(|spin| cross_matrix(&spin) * placement.gradient);
         Self {
-            normal: support.normal,
-            velocity: velocity.velocity - support.motion.velocity(time),
-            gradient_rate: velocity.gradient_rate,
+            normal: support.at(time).normal,
+            velocity: velocity.velocity - carrying.at(&placement.position),
+            gradient_rate: turned.map_or(velocity.gradient_rate, |turned| velocity.gradient_rate - turned),
         }
     }
 }

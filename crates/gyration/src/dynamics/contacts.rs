@@ -7,7 +7,7 @@ use crate::inadmissible::{Inadmissible, Quantity};
 use crate::instant::{KindAt, MotionAt};
 use crate::model::Model;
 use crate::state::BodyMotion;
-use crate::support::Support;
+use crate::support::{PlaneAt, PlaneMotion, Support};
 use crate::surface::{GapClosed, GapField, Surface};
 use crate::tensor::Vec3;
 
@@ -24,7 +24,7 @@ pub(super) fn meet<T>(
     let support = &model.supports[index];
     let field = gap_field(at, surface, support);
     let result = if surface.is_above(&field, body.least_gap(&field)) {
-        let motion = RelativeMotion::to(support, &motion.velocity, at.time);
+        let motion = RelativeMotion::to(support, motion, at.time);
         integrate(&Meeting { surface, field, motion, deformation: at.deformation() }).map(Some)
     } else {
         Err(GapClosed { gap: surface.smallest_gap(&field).0 })
@@ -50,14 +50,14 @@ fn extended_gap_field(at: &MotionAt, surface: &Surface, support: &Support) -> Op
         return None;
     }
     let slots = model.slots(index);
-    let (normal, place) = (&support.normal, slots.attitude().start);
+    let PlaneAt { origin, shift, normal } = &support.at(time);
+    let place = slots.attitude().start;
     let direction = match at.kind() {
         KindAt::Rigid(..) => rotated_back([0, 1, 2, 3].map(|i| numbers.at(place + i)), normal),
         // P stands column by column.
         _ => [0, 3, 6].map(|column| Extended::dot(&[0, 1, 2].map(|row| numbers.at(place + column + row)), normal)),
     };
-    let shift = support.motion.displacement(time);
-    let above = |i: usize, place: Extended| place - support.origin[i].into() - shift[i].into();
+    let above = |i: usize, place: Extended| place - origin[i].into() - shift[i].into();
     let height = match &body.pin {
         None => {
             let position = slots.position().start;
@@ -71,9 +71,14 @@ fn extended_gap_field(at: &MotionAt, surface: &Surface, support: &Support) -> Op
     Some(GapField::extended(height, &direction))
 }
 
-/// The velocity with which the support of a contact is moved [m/s].
-pub(super) fn carrying(at: &MotionAt, contact: &Contact) -> Vec3 {
-    at.model.supports[contact.support].motion.velocity(at.time)
+/// How the support of a contact moves.
+pub(super) fn carrying(at: &MotionAt, contact: &Contact) -> PlaneMotion {
+    at.model.supports[contact.support].motion_at(at.time)
+}
+
+/// The angular velocity of the support of a contact [rad/s], if it turns.
+pub(super) fn turning_of(at: &MotionAt, contact: &Contact) -> Option<Vec3> {
+    carrying(at, contact).spin
 }
 
 /// The smallest distance of a body to a support that it has a contact with [m], to all the digits of the state;
@@ -99,8 +104,9 @@ pub fn nearest(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> O
     let surface = model.bodies[index].solid.surface.as_ref()?;
     let near = model.supports.iter().map(|support| {
         let (gap, point) = surface.smallest_gap(&support.gap_field(&motion.placement, time));
-        let speed = (motion.velocity.at(&point) - support.motion.velocity(time)).dot(&support.normal);
-        Nearest { gap, normal: support.normal, point, speed }
+        let normal = support.at(time).normal;
+        let carried = support.motion_at(time).at(&motion.placement.place(&point));
+        Nearest { gap, normal, point, speed: (motion.velocity.at(&point) - carried).dot(&normal) }
     });
     near.min_by(|a, b| a.gap.total_cmp(&b.gap))
 }

@@ -5,7 +5,7 @@
 //! (`contact/wrench`); every other load reaches it through Q.
 
 use super::Scratch;
-use super::contacts::{carrying, meet};
+use super::contacts::{carrying, meet, turning_of};
 use super::immersed::{RigidImmersion, immersion};
 use super::powers::Powers;
 use crate::acting::{Load, PairAt};
@@ -16,6 +16,7 @@ use crate::kinematics::Velocity;
 use crate::ledger::{Energy, Work};
 use crate::load::{LoadSlopes, Loads, Party};
 use crate::pair::PairSlopes;
+use crate::tensor::cross_matrix;
 use gyration_expression::Undefined;
 
 /// What acts on a body, gravity aside.
@@ -54,7 +55,10 @@ impl Acting {
                     self.powers.add(law, loads.relative_power(law));
                 }
                 let carried = carrying(at, contact);
-                self.powers[Work::Support] += total.force.dot(&carried);
+                self.powers[Work::Support] += total.force.dot(&carried.at(&at.motion.placement.position));
+                if let Some(spin) = &carried.spin {
+                    self.powers[Work::Support] += total.moment.dot(&(cross_matrix(spin) * at.motion.placement.gradient));
+                }
                 self.contact += total;
                 self.total += total;
             }
@@ -169,8 +173,14 @@ pub(super) fn add_slopes(
         Load::Contact(contact) => {
             let integrated =
                 meet(at, contact, |it| ContactSlopes::integrate(&contact.law_set, it, &mut scratch.contact))?;
-            if let Some(contact) = integrated {
-                contact.add_to(slopes);
+            match (integrated, turning_of(at, contact)) {
+                (None, _) => {}
+                (Some(contact), None) => contact.add_to(slopes),
+                (Some(contact), Some(spin)) => {
+                    let mut own = LoadSlopes::default();
+                    contact.add_to(&mut own);
+                    slopes.add_turned(&own, &spin);
+                }
             }
         }
         Load::Spring(end) => slopes.add_spring(end, at.spring(end)),

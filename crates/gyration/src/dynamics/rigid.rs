@@ -1,13 +1,13 @@
 //! A rigid body: force and torque, and the balance solved for its rates.
 
 use super::Scratch;
-use super::contacts::{carrying, meet};
+use super::contacts::{carrying, meet, turning_of};
 use super::immersed::RigidImmersion;
 use super::loads::Acting;
 use super::powers::Powers;
 use crate::acting::Load;
 use crate::body::{RigidInertia, Slots};
-use crate::contact::{Contact, ContactLoads, LawKind, Meeting, RigidLoads, RigidMotion};
+use crate::contact::{Contact, ContactLoads, LawKind, Meeting, RelativeMotion, RigidLoads, RigidMotion};
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, MotionAt};
 use crate::ledger::Work;
@@ -25,7 +25,11 @@ pub(super) fn wrench(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<
             wrench += loads.wrench;
             powers[Work::Damping] += loads.damping_power;
             powers[Work::Friction] += loads.friction_power;
-            powers[Work::Support] += loads.wrench.force.dot(&carrying(at, contact));
+            let (carried, placement) = (carrying(at, contact), &at.motion.placement);
+            powers[Work::Support] += loads.wrench.force.dot(&carried.at(&placement.position));
+            if let Some(spin) = &carried.spin {
+                powers[Work::Support] += loads.wrench.torque.dot(&placement.gradient.tr_mul(spin));
+            }
             Ok(())
         }
         Load::Fluid(..) => {
@@ -56,7 +60,7 @@ fn contact_loads(
 ) -> Result<Option<RigidLoads>, Inadmissible> {
     meet(at, contact, |meeting| {
         let Meeting { surface, field, .. } = meeting;
-        let relative = RigidMotion::new(&meeting.motion, &at.motion.placement.gradient, turn.spin);
+        let relative = relative_motion(at, turn, contact, &meeting.motion);
         if at.model.central_laws_work() {
             let loads = ContactLoads::integrate(&contact.law_set, meeting, &mut scratch.contact)?;
             for law in [LawKind::Repulsion, LawKind::Adhesion] {
@@ -65,6 +69,14 @@ fn contact_loads(
         }
         RigidLoads::integrate(&contact.law_set, surface, field, &relative, &mut scratch.contact)
     })
+}
+
+/// The motion of a rigid body relative to a support: that of its centre, and its spin less that of the support.
+#[inline]
+pub(super) fn relative_motion(at: &MotionAt, turn: &Turn, contact: &Contact, center: &RelativeMotion) -> RigidMotion {
+    let rotation = &at.motion.placement.gradient;
+    let spin = turning_of(at, contact).map_or(turn.spin, |spin| turn.spin - rotation.tr_mul(&spin));
+    RigidMotion::new(center, rotation, spin)
 }
 
 /// Solves the balance of a rigid body for its rates.

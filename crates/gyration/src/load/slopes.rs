@@ -6,7 +6,7 @@
 
 use super::{Applied, LinearResistance, Loads, SpringEnd, SpringLoads};
 use crate::kinematics::{Placement, Velocity};
-use crate::tensor::{Mat3, Vec3};
+use crate::tensor::{Mat3, Vec3, cross_matrix};
 use nalgebra::{SMatrix, SVector};
 
 type Mat12 = SMatrix<f64, 12, 12>;
@@ -57,6 +57,19 @@ impl LoadSlopes {
     /// The change of the loads with δṗ₀ and δṖ, places kept.
     pub fn along_rate(&self, velocity: &Vec3, gradient_rate: &Mat3) -> Loads {
         loads(&(self.by_rate * coordinates(velocity, gradient_rate)))
+    }
+
+    /// Adds those by the motion relative to what turns at ω [rad/s]: δw = δq̇ − [ω]× δq.
+    pub fn add_turned(&mut self, relative: &Self, spin: &Vec3) {
+        let turning = cross_matrix(spin);
+        self.loads += relative.loads;
+        self.by_place += relative.by_place;
+        self.by_rate += relative.by_rate;
+        for column in (0..COORDINATES).step_by(3) {
+            let carried = relative.by_rate.fixed_columns::<3>(column) * turning;
+            let mut own = self.by_place.fixed_columns_mut::<3>(column);
+            own -= carried;
+        }
     }
 
     /// Adds the derivative by one of the twelve coordinates.

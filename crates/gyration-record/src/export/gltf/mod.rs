@@ -4,7 +4,8 @@
 //! root: turns "up" (against gravity) to y, as glTF has it
 //! ├── body, rigid:     translation p₀, rotation P, its mesh
 //! ├── body, deforming: translation p₀, rotation U, scale S  ──  rotation Vᵀ, its mesh        P = U S Vᵀ
-//! └── support:         a sheet with a grid, moving if the support does
+//! ├── support, plane:  a sheet with a grid, moving if the support does
+//! └── support, solid:  translation, rotation, its mesh
 //! ```
 //!
 //! Lengths in metres, times in seconds, from t = 0. Meshes of bodies with equal surfaces share their numbers.
@@ -18,7 +19,7 @@ mod shading;
 #[cfg(test)]
 mod tests;
 
-use super::drawing::{Drawing, DrawnBody, DrawnSupport, Vec3};
+use super::drawing::{Drawing, DrawnBody, DrawnMotion, DrawnSolidSupport, DrawnSupport, Vec3};
 use crate::error::RecordError;
 use crate::recording::Recording;
 use container::Numbers;
@@ -82,6 +83,10 @@ impl GltfDocument {
         for ground in &drawing.supports {
             let times = tracks.iter().map(|track| track.times.as_slice()).max_by_key(|times| times.len());
             children.push(this.support(ground, &carried, times.unwrap_or(&[])));
+        }
+        for solid in &drawing.solid_supports {
+            let times = tracks.iter().map(|track| track.times.as_slice()).max_by_key(|times| times.len());
+            children.extend(this.solid_support(solid, &surfaces, times.unwrap_or(&[])));
         }
         this.nodes[0]["children"] = children.into();
         this
@@ -171,15 +176,45 @@ impl GltfDocument {
             "attributes": { "POSITION": self.numbers.vertices(&sheet.lines) }, "material": grid, "mode": LINES,
         });
         let mesh = self.add_mesh(&ground.name, vec![sheet_primitive, lines]);
-        let at = |time: f64| single(&(sheet.center + ground.displacement(time)));
+        self.carried(mesh, &ground.name, (&sheet.center, &UnitQuaternion::identity()), (&ground.motion, times))
+    }
+
+    /// The node of a support with a shape.
+    fn solid_support(&mut self, solid: &DrawnSolidSupport, surfaces: &[Value], times: &[f64]) -> Option<usize> {
+        let mut skin = surfaces.get(solid.surface?)?.clone();
+        skin["material"] = self.add_material(paint::sheet()).into();
+        let mesh = self.add_mesh(&solid.name, vec![skin]);
+        let start = (&Vec3::from(solid.position), &solid.turn());
+        Some(self.carried(mesh, &solid.name, start, (&solid.motion, times)))
+    }
+
+    /// The node of what is carried along with a support, from where it starts.
+    fn carried(
+        &mut self,
+        mesh: usize,
+        name: &str,
+        (center, turn): (&Vec3, &UnitQuaternion<f64>),
+        (motion, times): (&DrawnMotion, &[f64]),
+    ) -> usize {
+        let at = |time: f64| {
+            let (by, shift) = motion.carried(time);
+            (single(&(by * center + shift)), by * turn)
+        };
         let node = self.nodes.len();
-        self.nodes.push(json!({
-            "name": ground.name, "mesh": mesh, "translation": at(times.first().copied().unwrap_or(0.0)),
-        }));
-        if ground.moves() && !times.is_empty() {
-            let places: Vec<_> = times.iter().map(|time| at(*time)).collect();
+        let (place, turned) = at(times.first().copied().unwrap_or(0.0));
+        let mut first = json!({ "name": name, "mesh": mesh, "translation": place });
+        if motion.turns() || turned != UnitQuaternion::identity() {
+            first["rotation"] = json!(quaternion(&turned));
+        }
+        self.nodes.push(first);
+        if motion.moves() && !times.is_empty() {
+            let (places, turns): (Vec<_>, Vec<_>) = times.iter().map(|time| at(*time)).unzip();
             let times = self.times(times);
             self.animate(node, "translation", times, &places);
+            if motion.turns() {
+                let turns: Vec<_> = continuous(turns.into_iter());
+                self.animate(node, "rotation", times, &turns);
+            }
         }
         node
     }

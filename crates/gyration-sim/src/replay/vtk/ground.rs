@@ -49,6 +49,10 @@ impl Sheets {
     /// The sheets at a time \[s\].
     pub(super) fn at(&self, time: f64) -> PolyData<'_> {
         let place = |sheet: &Sheet| {
+            if sheet.motion.turns() {
+                let carried = sheet.motion.carriage(time);
+                return sheet.corners.map(|corner| carried.place(&corner));
+            }
             let shift = sheet.motion.displacement(time);
             sheet.corners.map(|corner| corner + shift)
         };

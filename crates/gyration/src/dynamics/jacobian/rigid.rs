@@ -9,9 +9,10 @@
 //! Columns of the quaternion come from those of δθ by δθ = 2 vec(q⁻¹ ∘ δq).
 
 use super::super::Scratch;
-use super::super::contacts::meet;
+use super::super::contacts::{meet, turning_of};
 use super::super::immersed::RigidImmersion;
 use super::super::loads::add_slopes;
+use super::super::rigid::relative_motion;
 use crate::acting::Load;
 use crate::body::{Body, RigidInertia, Slots};
 use crate::contact::{ContactWrench, Meeting, RigidMotion};
@@ -75,7 +76,7 @@ impl RigidSlopes {
                 Load::Contact(contact) => {
                     let integrated = meet(at, contact, |meeting| {
                         let Meeting { surface, field, .. } = meeting;
-                        let relative = RigidMotion::new(&meeting.motion, rotation, turn.spin);
+                        let relative = relative_motion(at, turn, contact, &meeting.motion);
                         let wrench = ContactWrench::integrate(
                             &contact.law_set,
                             surface,
@@ -87,6 +88,9 @@ impl RigidSlopes {
                     })?;
                     if let Some((wrench, relative)) = integrated {
                         self.add_contact(&wrench, &relative);
+                        if let Some(spin) = turning_of(at, contact) {
+                            self.carry(&wrench, &spin, rotation);
+                        }
                     }
                 }
                 Load::Fluid(..) => {
@@ -136,6 +140,13 @@ impl RigidSlopes {
         self.by_turn += contact.by_turn;
         self.by_velocity += contact.by_velocity;
         self.by_spin += contact.by_spin;
+    }
+
+    /// Adds how the motion relative to a support that turns at ω changes with place and turn: δw₀ = −ω × δp₀,
+    /// δ(Ω − Rᵀω) = −Rᵀω × δθ.
+    fn carry(&mut self, contact: &ContactWrench, spin: &Vec3, rotation: &Mat3) {
+        self.by_place += contact.by_velocity.times(&-cross_matrix(spin));
+        self.by_turn += contact.by_spin.times(&-cross_matrix(&rotation.tr_mul(spin)));
     }
 
     /// Adds other loads and the change of their torque with the axes in which it is told, N = RᵀM: the rest is B ∂Q A.
