@@ -340,6 +340,7 @@ impl Stop {
                 let formula = match of {
                     FormulaOf::Potential => "potential",
                     FormulaOf::BodyForce => "body_force",
+                    FormulaOf::PointForce => "force",
                     FormulaOf::Friction => "linear_friction",
                     FormulaOf::Bond(_) => "formula",
                 };

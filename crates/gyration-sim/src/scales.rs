@@ -117,6 +117,7 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
             | Load::Resistance(_)
             | Load::Potential(_)
             | Load::BodyForce(_)
+            | Load::PointForce(_)
             | Load::OwnFriction(_)
             | Load::MassFriction(_)
             | Load::Fluid(..) => 0.0,

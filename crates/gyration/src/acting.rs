@@ -10,7 +10,7 @@ use crate::joint::JointEnd;
 use crate::ledger::{Energy, Work};
 use crate::load::{
     Applied, BodyForce, BondEnd, Couple, InteractionEnd, LinearResistance, Loads, MassFriction, OwnFriction, Party,
-    Potential, SpringEnd,
+    PointForce, Potential, SpringEnd,
 };
 use crate::neighbours::{Pair, PairRule};
 use crate::pair::{PairLoads, PairSlopes};
@@ -119,6 +119,8 @@ pub enum Load<'a> {
     Potential(&'a Potential),
     /// A force per volume.
     BodyForce(&'a BodyForce),
+    /// A force on a material point.
+    PointForce(&'a PointForce),
     /// Friction that changes with the place of the body and with time.
     OwnFriction(&'a OwnFriction),
     /// Friction in proportion to the mass.
@@ -175,6 +177,9 @@ impl<'a> Load<'a> {
         if let Some(body_force) = &body.own.body_force {
             each(Self::BodyForce(body_force))?;
         }
+        for point_force in &body.own.point_forces {
+            each(Self::PointForce(point_force))?;
+        }
         if let Some(resistance) = &body.own.resistance {
             each(Self::Resistance(resistance))?;
         }
@@ -201,6 +206,7 @@ impl<'a> Load<'a> {
             | Self::Resistance(_)
             | Self::Potential(_)
             | Self::BodyForce(_)
+            | Self::PointForce(_)
             | Self::OwnFriction(_)
             | Self::MassFriction(_)
             | Self::Fluid(..) => true,
@@ -221,7 +227,8 @@ impl<'a> Load<'a> {
             | Self::Applied(_)
             | Self::Resistance(_)
             | Self::Potential(_)
-            | Self::BodyForce(_) => LoadKind::Load,
+            | Self::BodyForce(_)
+            | Self::PointForce(_) => LoadKind::Load,
         }
     }
 
@@ -243,7 +250,7 @@ impl<'a> Load<'a> {
             Self::Bond(end) if end.interaction.works() => vec![Work::Load],
             // What the error of a step leaves: its force does no work.
             Self::Joint(_) => vec![Work::Constraint],
-            Self::Couple(_) | Self::Applied(_) | Self::BodyForce(_) => vec![Work::Load],
+            Self::Couple(_) | Self::Applied(_) | Self::BodyForce(_) | Self::PointForce(_) => vec![Work::Load],
             Self::OwnFriction(_) | Self::MassFriction(_) => vec![Work::Viscosity],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
             Self::Fluid(..) => vec![Work::Fluid],
@@ -268,6 +275,7 @@ impl<'a> Load<'a> {
             | Self::Applied(_)
             | Self::Resistance(_)
             | Self::BodyForce(_)
+            | Self::PointForce(_)
             | Self::OwnFriction(_)
             | Self::MassFriction(_)
             | Self::Fluid(..) => None,

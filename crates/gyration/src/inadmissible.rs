@@ -10,6 +10,8 @@ pub enum FormulaOf {
     Potential,
     /// A component of b.
     BodyForce,
+    /// A component of F at a point.
+    PointForce,
     /// The scale or an entry of a friction.
     Friction,
     /// The bond of this index.

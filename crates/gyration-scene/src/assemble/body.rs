@@ -93,6 +93,9 @@ fn point(placed: &Placed<Body>, reporter: &mut Reporter<'_>) {
     for (index, spring) in value.spring.iter().enumerate() {
         lever(&si(&spring.point), &key.key("spring").index(index).key("point"), reporter);
     }
+    for (index, force) in value.force.iter().enumerate() {
+        lever(&si(&force.point), &key.key("force").index(index).key("point"), reporter);
+    }
 }
 
 /// Notes a spring beside a mass point.

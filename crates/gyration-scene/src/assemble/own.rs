@@ -5,11 +5,11 @@ use super::context::SceneContext;
 use crate::check::{Placed, Reporter};
 use crate::file::{Body, Entry, LinearFriction};
 use crate::key::Key;
-use crate::quantity::AnyQuantity;
+use crate::quantity::{AnyQuantity, si};
 use gyration::kinematics::Placement;
 use gyration::load::{
-    BodyForce, FieldOfForce, Formula, FrictionEntry, FrictionMatrix, LinearResistance, OwnForces, OwnFriction,
-    PLACE_NAMES, Potential,
+    BodyForce, FieldOfForce, Formula, FrictionEntry, FrictionMatrix, LinearResistance, LoadSlopes, OwnForces,
+    OwnFriction, PLACE_NAMES, PointForce, Potential,
 };
 use gyration::shape::Shape;
 use gyration::tensor::Vec3;
@@ -41,6 +41,11 @@ impl OwnForcesWritten {
             reader.accepted(read, &key.key("potential"), text).map(Box::new)
         });
         let field = value.body_force.as_ref().and_then(|entries| reader.field(entries, &key.key("body_force")));
+        let mut point_forces = Vec::new();
+        for (index, written) in value.force.iter().enumerate() {
+            let field = reader.field(&written.value, &key.key("force").index(index).key("value"));
+            point_forces.extend(field.map(|field| PointForce { point: si(&written.point), field }));
+        }
         let resistance = value.linear_friction.as_ref().and_then(|written| {
             let matrix = written.constant()?;
             let made = LinearResistance::friction(&square(&matrix), frame(written.frame));
@@ -60,7 +65,7 @@ impl OwnForcesWritten {
         if reader.fails {
             return None;
         }
-        let forces = OwnForces { potential, body_force: None, resistance, frictions, absorption: None };
+        let forces = OwnForces { potential, body_force: None, point_forces, resistance, frictions, absorption: None };
         Some(Self { forces, frictions: keys, field, body: key.clone(), has_shape: value.shape.is_some() })
     }
 
@@ -76,6 +81,11 @@ impl OwnForcesWritten {
         let scratch = &mut Scratch::default();
         if let Some(potential) = &forces.potential {
             defined(potential.loads(place, 0.0, scratch), &body.key("potential"), reporter)?;
+        }
+        for (index, force) in forces.point_forces.iter().enumerate() {
+            let key = body.key("force").index(index).key("value");
+            let found = LoadSlopes::default().add_point_force(force, place, 0.0, scratch);
+            defined(found, &key, reporter)?;
         }
         for (friction, key) in forces.frictions.iter().zip(&frictions) {
             defined(friction.check(place, 0.0, scratch), key, reporter)?;

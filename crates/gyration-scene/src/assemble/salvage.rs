@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 /// Keys whose values are checked by themselves.
 const ALONE: [&str; 3] = ["orientation", "mass_properties", "spring"];
 /// Expressions, and what they need: constants, and where the body starts.
-const OWN: [&str; 4] = ["constants", "potential", "body_force", "linear_friction"];
+const OWN: [&str; 5] = ["constants", "potential", "body_force", "force", "linear_friction"];
 const PLACE: [&str; 8] =
     ["constants", "shape", "mass_properties", "position", "orientation", "gradient", "contractile", "pin"];
 /// What a body is made of needs to know whether it has a volume, which these say.

@@ -77,6 +77,9 @@ pub struct Body {
     /// and t (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body_force: Option<Box<[Entry; 3]>>,
+    /// Forces on material points.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub force: Vec<PointForce>,
     /// Friction linear in the velocity and the velocity gradient, of a body of any kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub linear_friction: Option<Box<LinearFriction>>,
@@ -109,6 +112,17 @@ pub struct MassProperties {
     pub center: [Length; 3],
     /// Euler tensor ∫ρ X⊗X dV about the centre of mass (kg m²); the inertia matrix is tr(J) I − J.
     pub euler_tensor: [[EulerMoment; 3]; 3],
+}
+
+/// A force on a material point.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PointForce {
+    /// Point of the body, relative to the centre of mass in the body's axes (m).
+    #[serde(default)]
+    pub point: [Length; 3],
+    /// F in spatial axes (N), three expressions of x, y, z (m, where the point is) and t (s).
+    pub value: [Entry; 3],
 }
 
 /// A spring and dashpot between a point of the body and a point of space.

@@ -25,7 +25,7 @@ mod time;
 mod world;
 
 pub use affine::{Affine, Couple, Entry, Frame, Gyroscopic, InternalFriction, LinearFriction};
-pub use body::{Body, MassProperties, Rigid, Spring};
+pub use body::{Body, MassProperties, PointForce, Rigid, Spring};
 pub use bond::{Bond, BondDamping};
 pub use contact::{Adhesion, Contact, Friction, Measure, Reach, Repulsion, Resistance};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};

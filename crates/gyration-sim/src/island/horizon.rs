@@ -199,7 +199,12 @@ impl<'a> PlaneApproach<'a> {
         if support.motion.turns() {
             // As seen from the support.
             let normal = support.at(time).normal;
-            return Self::along(&normal, (end, &end.acceleration), (surface, radius), (field, motion.velocity.velocity));
+            return Self::along(
+                &normal,
+                (end, &end.acceleration),
+                (surface, radius),
+                (field, motion.velocity.velocity),
+            );
         }
         let mut velocity = RelativeMotion::to(support, motion, time).velocity;
         if support.motion.oscillates() {

@@ -94,7 +94,7 @@ fn material_in_words(material: &Material) -> String {
 }
 
 fn own_forces(body: &Body) -> Vec<String> {
-    let OwnForces { potential, body_force, resistance, frictions, absorption } = &body.own;
+    let OwnForces { potential, body_force, point_forces, resistance, frictions, absorption } = &body.own;
     let potential = potential.as_ref().map(|potential| match potential.is_energy() {
         true => "potential".to_owned(),
         false => "potential that changes in time".to_owned(),
@@ -109,7 +109,11 @@ fn own_forces(body: &Body) -> Vec<String> {
     let constant = resistance.as_ref().map(|_| "linear friction".to_owned());
     let varying = (!frictions.is_empty()).then(|| "linear friction that changes with place or time".to_owned());
     let absorption = absorption.map(|it| format!("absorption, rate {} 1/s", significant(it.rate, 5)));
-    [potential, body_force, constant, varying, absorption].into_iter().flatten().collect()
+    let forces = (!point_forces.is_empty()).then(|| match point_forces.len() {
+        1 => "a force on a point".to_owned(),
+        count => format!("forces on {count} points"),
+    });
+    [potential, body_force, forces, constant, varying, absorption].into_iter().flatten().collect()
 }
 
 fn loads(affine: &Affine) -> Vec<String> {

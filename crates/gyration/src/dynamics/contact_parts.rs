@@ -62,6 +62,7 @@ pub fn contact_parts(at: &BodyAt, scratch: &mut Scratch) -> Result<ContactParts,
             | Load::Resistance(_)
             | Load::Potential(_)
             | Load::BodyForce(_)
+            | Load::PointForce(_)
             | Load::OwnFriction(_)
             | Load::MassFriction(_)
             | Load::Fluid(..) => {}

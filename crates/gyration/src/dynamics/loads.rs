@@ -57,7 +57,8 @@ impl Acting {
                 let carried = carrying(at, contact);
                 self.powers[Work::Support] += total.force.dot(&carried.at(&at.motion.placement.position));
                 if let Some(spin) = &carried.spin {
-                    self.powers[Work::Support] += total.moment.dot(&(cross_matrix(spin) * at.motion.placement.gradient));
+                    self.powers[Work::Support] +=
+                        total.moment.dot(&(cross_matrix(spin) * at.motion.placement.gradient));
                 }
                 self.contact += total;
                 self.total += total;
@@ -123,6 +124,12 @@ impl Acting {
             Load::BodyForce(body_force) => {
                 let loads = body_force.loads(&at.motion.placement, at.time, &mut scratch.formulas);
                 let loads = loads.map_err(undefined(at, FormulaOf::BodyForce))?;
+                self.powers[Work::Load] += loads.power(&velocity.velocity, &velocity.gradient_rate);
+                self.total += loads;
+            }
+            Load::PointForce(point_force) => {
+                let loads = point_force.loads(&at.motion.placement, at.time, &mut scratch.formulas);
+                let loads = loads.map_err(undefined(at, FormulaOf::PointForce))?;
                 self.powers[Work::Load] += loads.power(&velocity.velocity, &velocity.gradient_rate);
                 self.total += loads;
             }
@@ -215,6 +222,10 @@ pub(super) fn add_slopes(
             let added = slopes.add_body_force(body_force, &at.motion.placement, at.time, &mut scratch.formulas);
             added.map_err(undefined(at, FormulaOf::BodyForce))?;
         }
+        Load::PointForce(point_force) => {
+            let added = slopes.add_point_force(point_force, &at.motion.placement, at.time, &mut scratch.formulas);
+            added.map_err(undefined(at, FormulaOf::PointForce))?;
+        }
         Load::OwnFriction(friction) => {
             let (place, velocity) = ((&at.motion.placement, at.time), &at.motion.velocity);
             let added = slopes.add_own_friction(friction, place, &at.inverse(), velocity, &mut scratch.formulas);
@@ -265,6 +276,7 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                 | Load::Applied(_)
                 | Load::Resistance(_)
                 | Load::BodyForce(_)
+                | Load::PointForce(_)
                 | Load::OwnFriction(_)
                 | Load::MassFriction(_)
                 | Load::Fluid(..) => 0.0,

@@ -69,6 +69,11 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
                 let force = loads.map_err(undefined(at, FormulaOf::BodyForce))?.force.norm();
                 each(Push { force, gap: at.body.size, rounding: 0.0 });
             }
+            Load::PointForce(point_force) => {
+                let loads = point_force.loads(&at.motion.placement, at.time, &mut scratch.formulas);
+                let force = loads.map_err(undefined(at, FormulaOf::PointForce))?.force.norm();
+                each(Push { force, gap: at.body.size, rounding: 0.0 });
+            }
             // Its force does no work.
             Load::Joint(_)
             | Load::Couple(_)

@@ -79,7 +79,13 @@ impl FieldOfForce {
     }
 
     /// b and ∂b/∂x at a point.
-    fn at(&self, place: &Vec3, time: f64, slopes: bool, scratch: &mut Scratch) -> Result<(Vec3, Mat3), Undefined> {
+    pub(super) fn at(
+        &self,
+        place: &Vec3,
+        time: f64,
+        slopes: bool,
+        scratch: &mut Scratch,
+    ) -> Result<(Vec3, Mat3), Undefined> {
         let (numbers, mut gradient) = ([place.x, place.y, place.z, time], [0.0; POINT_NAMES.len()]);
         let (mut force, mut by_place) = (Vec3::zeros(), Mat3::zeros());
         for (row, component) in self.0.iter().enumerate() {

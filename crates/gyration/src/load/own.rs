@@ -1,6 +1,6 @@
 //! The forces that a scene writes for one body, as formulas of its place and of time.
 
-use super::{BodyForce, LinearResistance, MassFriction, OwnFriction, Potential};
+use super::{BodyForce, LinearResistance, MassFriction, OwnFriction, PointForce, Potential};
 
 /// Forces of a body's own.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -9,6 +9,8 @@ pub struct OwnForces {
     pub potential: Option<Box<Potential>>,
     /// b(x, t) over its volume.
     pub body_force: Option<Box<BodyForce>>,
+    /// F(x, t) at material points.
+    pub point_forces: Vec<PointForce>,
     /// Friction, linear in (ṗ₀, L), of a matrix that is the same everywhere.
     pub resistance: Option<Box<LinearResistance>>,
     /// Frictions whose matrices change with place or time.
@@ -20,6 +22,8 @@ pub struct OwnForces {
 impl OwnForces {
     /// True if one of them may hold the body at a place.
     pub fn hold(&self) -> bool {
-        self.body_force.is_some() || self.potential.as_ref().is_some_and(|potential| potential.acts())
+        self.body_force.is_some()
+            || !self.point_forces.is_empty()
+            || self.potential.as_ref().is_some_and(|potential| potential.acts())
     }
 }

@@ -14,7 +14,7 @@ use gyration::fluid::{FixedForm, Fluid, Form, History, Inclusion};
 use gyration::kinematics::Placement;
 use gyration::load::{
     Applied, BodyForce, Couple, FieldOfForce, Formula, Frame, FrictionEntry, FrictionMatrix, LinearResistance,
-    MassFriction, Mat12, OwnForces, OwnFriction, Potential, Spring, SpringLaw,
+    MassFriction, Mat12, OwnForces, OwnFriction, PointForce, Potential, Spring, SpringLaw,
 };
 use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
 use gyration::model::Model;
@@ -212,6 +212,10 @@ pub fn with_own_forces(model: Model) -> Model {
         let own = OwnForces {
             potential: Some(Box::new(potential)),
             body_force: Some(Box::new(body_force)),
+            point_forces: vec![PointForce {
+                point: Vec3::new(0.3, -0.2, 0.4),
+                field: FieldOfForce::parse([quadratic, smooth][index % 2], &constants).unwrap(),
+            }],
             resistance: Some(Box::new(LinearResistance::friction(&square, Frame::Body).unwrap())),
             // A gross of formulas takes a tenth of a millisecond.
             frictions: std::iter::once(OwnFriction::new(scaled, Frame::Body))

@@ -50,6 +50,7 @@ pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usiz
             | Load::Resistance(_)
             | Load::Potential(_)
             | Load::BodyForce(_)
+            | Load::PointForce(_)
             | Load::OwnFriction(_)
             | Load::MassFriction(_)
             | Load::Fluid(..) => {
