@@ -14,7 +14,7 @@ const MASS: f64 = 1.0;
 const NU: f64 = 3.0;
 
 fn facet(beta: f64, gravity: f64, gap: f64, velocity: f64) -> Experiment {
-    let law = ContactLaw::Damping(Damping { beta, exponent: NU, reference_gap: 1.0 });
+    let law = ContactLaw::Damping(Damping { beta, exponent: NU, reference_gap: 1.0, release: None });
     let body = FacetBody { mass: MASS, area: AREA, laws: vec![law], gravity, gap, tilt: 0.0, velocity };
     body.experiment(Tolerance { rtol: 1e-11, atol: 1e-14 })
 }

@@ -18,7 +18,7 @@ fn deformable_face_stops_where_its_momentum_is_spent() {
     let body = FacetBody {
         mass: 1.0,
         area: 0.01,
-        laws: vec![ContactLaw::Damping(Damping { beta: 1e-7, exponent: 3.0, reference_gap: 1.0 })],
+        laws: vec![ContactLaw::Damping(Damping { beta: 1e-7, exponent: 3.0, reference_gap: 1.0, release: None })],
         gravity: 0.0,
         gap: 0.05,
         tilt: 0.0,

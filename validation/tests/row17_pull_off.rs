@@ -47,7 +47,7 @@ fn face((attractive, repulsive): (f64, f64), gap: f64, load: f64, damping: f64) 
         repulsive_exponent: repulsive,
         reference_gap: REFERENCE_GAP,
     };
-    let damping = Damping { beta: damping, exponent: attractive, reference_gap: REFERENCE_GAP };
+    let damping = Damping { beta: damping, exponent: attractive, reference_gap: REFERENCE_GAP, release: None };
     let body = FacetBody {
         mass: MASS,
         area: AREA,

@@ -233,6 +233,18 @@ fn errors_of_supports_and_contacts_stand_at_their_place() {
             "did you mean `mu`?",
         ),
         (
+            "[[contact]]\nsupport = \"table\"\ndamping = { beta = 1, nu = 6, one_sided = §true }\n",
+            "contact.0.damping.one_sided",
+            "at a speed that a repulsion tells",
+            "leave one_sided out",
+        ),
+        (
+            "[[contact]]\nsupport = \"table\"\ndamping = { beta = 1, nu = 6, one_sided = §1 }\n",
+            "contact.0.damping.one_sided",
+            "expected",
+            "",
+        ),
+        (
             "[[contact]]\nsupport = \"table\"\ndamping = { beta = 1, nu = 6, §mu = 0.3 }\n",
             "contact.0.damping.mu",
             "mu",

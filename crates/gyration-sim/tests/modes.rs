@@ -258,7 +258,7 @@ fn resting_ball(normal: Vec3, friction: f64, deformable: bool) -> (Model, State)
     let body = if deformable { soft(ball(), 1000.0, rubber(), 20.0) } else { bare(ball(), 1000.0) };
     let laws = vec![
         ContactLaw::Repulsion(Repulsion { alpha: 40e3, exponent: 6.0, reference_gap: 2e-3 }),
-        ContactLaw::Damping(Damping { beta: 500.0, exponent: 6.0, reference_gap: 2e-3 }),
+        ContactLaw::Damping(Damping { beta: 500.0, exponent: 6.0, reference_gap: 2e-3, release: None }),
         ContactLaw::Friction(Friction { beta: friction, exponent: 6.0, reference_gap: 2e-3, mu: None }),
     ];
     let contact = Contact::new(0, 0, LawSet::new(AreaMeasure::DeformedAreaPotential, laws));

@@ -67,7 +67,7 @@ fn law_set(exponents: [f64; 3], mu: Option<f64>) -> LawSet {
     let [repulsion, damping, friction] = exponents;
     let laws = vec![
         ContactLaw::Repulsion(Repulsion { alpha: 2.0, exponent: repulsion, reference_gap: 0.3 }),
-        ContactLaw::Damping(Damping { beta: 0.7, exponent: damping, reference_gap: 0.4 }),
+        ContactLaw::Damping(Damping { beta: 0.7, exponent: damping, reference_gap: 0.4, release: mu }),
         ContactLaw::Friction(Friction { beta: 0.9, exponent: friction, reference_gap: 0.2, mu }),
         ContactLaw::Adhesion(Adhesion {
             beta: 1.3,
@@ -143,7 +143,7 @@ proptest! {
     #[test]
     fn friction_of_any_strength_leaves_the_damping_alone(scene in scene(), strength in 1e15..1e25_f64) {
         // Next to a support the steeper law exceeds the other by more than the digits of a number.
-        let damping = ContactLaw::Damping(Damping { beta: 1.0, exponent: 3.0, reference_gap: 1.0 });
+        let damping = ContactLaw::Damping(Damping { beta: 1.0, exponent: 3.0, reference_gap: 1.0, release: None });
         let friction = ContactLaw::Friction(Friction { beta: strength, exponent: 3.0, reference_gap: 1.0, mu: None });
         let with = |laws: Vec<ContactLaw>| {
             let laws = LawSet::new(AreaMeasure::default(), laws);

@@ -15,6 +15,10 @@ use gyration::neighbours::PairRule;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+/// w₀ of one-sided damping over α/β: what recedes is held back by a two-hundredth of the speed at which damping would be
+/// as strong as repulsion.
+const RELEASE: f64 = 0.01;
+
 /// The most contacts of bodies with supports in a scene.
 const MOST_CONTACTS: usize = 1_000_000;
 
@@ -39,7 +43,7 @@ pub(super) fn attach(
         let partners = names.partners(value, assembled);
         // Bodies that meet without a repulsion have no plane: they are told so.
         if !matches!(partners, Some(Partners::Bodies(_))) {
-            check_bound(&laws, key, reporter);
+            check_pushed(value, &laws, key, reporter);
         }
         let Some(partners) = partners else { continue };
         match partners {
@@ -148,10 +152,17 @@ fn range(law: &ContactLaw, key: &Key, reporter: &mut Reporter<'_>) {
     }
 }
 
-/// Notes a bound on friction that has no force to be a part of.
-fn check_bound(laws: &[ContactLaw], key: &Key, reporter: &mut Reporter<'_>) {
-    let pushes = laws.iter().any(|law| matches!(law, ContactLaw::Repulsion(law) if law.alpha > 0.0));
-    if !pushes && laws.iter().any(|law| law.mu().is_some()) {
+/// Notes a bound on friction that has no force to be a part of, and damping that has no speed to release at.
+fn check_pushed(contact: &Contact, laws: &[ContactLaw], key: &Key, reporter: &mut Reporter<'_>) {
+    if laws.iter().any(|law| matches!(law, ContactLaw::Repulsion(law) if law.alpha > 0.0)) {
+        return;
+    }
+    if contact.damping.is_some_and(|damping| damping.one_sided) {
+        let message = "what recedes is let go at a speed that a repulsion tells, and this contact has none";
+        let help = "give the contact a `repulsion` with alpha > 0, or leave one_sided out";
+        reporter.note(&key.key("damping").key("one_sided"), message, help);
+    }
+    if laws.iter().any(|law| law.mu().is_some()) {
         let message = "a bound on friction is a part of the force of a repulsion, and this contact has none";
         let help = "give the contact a `repulsion` with alpha > 0, or leave mu out: friction is then viscous";
         reporter.note(&key.key("friction").key("mu"), message, help);
@@ -173,7 +184,12 @@ fn laws(contact: &Contact) -> Vec<ContactLaw> {
     });
     let damping = contact.damping.map(|law| {
         let (beta, exponent, reference_gap) = (law.beta.value(), law.nu.0, law.d0.value());
-        ContactLaw::Damping(Damping { beta, exponent, reference_gap })
+        let release = contact.repulsion.filter(|_| law.one_sided && beta > 0.0).map(|repulsion| {
+            // α and β of the gap d₀ of damping.
+            let alpha = repulsion.alpha.value() * libm::pow(reference_gap / repulsion.d0.value(), -repulsion.nu.0);
+            RELEASE * alpha / beta
+        });
+        ContactLaw::Damping(Damping { beta, exponent, reference_gap, release })
     });
     let friction = contact.friction.map(|law| {
         let (beta, exponent, reference_gap) = (law.beta.value(), law.nu.0, law.d0.value());

@@ -30,7 +30,7 @@ pub struct Contact {
     pub repulsion: Option<Repulsion>,
     /// Damping −β (d/d₀)^−ν of the normal velocity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub damping: Option<Resistance>,
+    pub damping: Option<Damping>,
     /// Friction −β (d/d₀)^−ν of the tangential velocity, which may have Coulomb's bound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<Friction>,
@@ -100,10 +100,10 @@ pub struct Repulsion {
     pub d0: Positive<Length>,
 }
 
-/// Damping β (d/d₀)^−ν.
+/// Damping β (d/d₀)^−ν, on both sides or hardly on what recedes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Resistance {
+pub struct Damping {
     /// Strength β (Pa s/m).
     pub beta: NonNegative<SurfaceDamping>,
     /// Exponent ν > 0.
@@ -111,6 +111,9 @@ pub struct Resistance {
     /// Reference gap d₀ (m).
     #[serde(default = "one_metre")]
     pub d0: Positive<Length>,
+    /// Whether what recedes is held back by the speed α/(200 β) at most.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub one_sided: bool,
 }
 
 /// Friction β (d/d₀)^−ν, all of which a bound keeps below μ times the force of the repulsion.
@@ -142,6 +145,11 @@ pub struct Adhesion {
     /// Reference gap d₀ (m), at which the law vanishes.
     #[serde(default = "one_metre")]
     pub d0: Positive<Length>,
+}
+
+/// What is left out where it is not asked for.
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 /// With d₀ = 1 m the strength is the traction at a gap of a metre.

@@ -27,7 +27,7 @@ mod world;
 pub use affine::{Affine, Couple, Entry, Frame, Gyroscopic, InternalFriction, LinearFriction};
 pub use body::{Body, MassProperties, PointForce, Rigid, Spring};
 pub use bond::{Bond, BondDamping};
-pub use contact::{Adhesion, Contact, Friction, Measure, Reach, Repulsion, Resistance};
+pub use contact::{Adhesion, Contact, Damping, Friction, Measure, Reach, Repulsion};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
 pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
 pub use joint::{Joint, JointWord};

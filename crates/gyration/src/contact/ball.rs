@@ -195,7 +195,10 @@ impl RigidLoads {
         let terms = laws.terms().iter();
         let mut sums =
             by_action(terms.map(|planned| (&planned.term, planned.term.coefficient, &moments[planned.value])));
-        let rolling = Rolling::new(motion);
+        let one_sided = laws.one_sided().map(|one_sided| one_sided.shift(motion.approach));
+        let damped = one_sided.map(|shift| motion.approaching(motion.approach + shift.by));
+        let damped = damped.as_ref().unwrap_or(motion);
+        let rolling = Rolling::new(damped);
         if let Some(mu) = laws.mu() {
             let push = push(laws, |planned| planned.term.coefficient * moments[planned.value].zeroth);
             let friction = &mut sums[Action::Tangential as usize];
@@ -205,7 +208,7 @@ impl RigidLoads {
         let tilting = rolling.swing.norm_squared();
         Some(Ok(Self {
             wrench: rolling.wrench(&sums),
-            damping_power: -(motion.approach.powi(2) * normal.zeroth + normal.across * tilting),
+            damping_power: -(motion.approach * damped.approach * normal.zeroth + normal.across * tilting),
             friction_power: -rolling.lost(tangential),
         }))
     }
@@ -235,7 +238,9 @@ impl ContactWrench {
             (term, -term.exponent * term.coefficient, &moments[planned.derivative])
         });
         let (mut values, mut slopes) = (by_action(values), by_action(slopes));
-        let rolling = Rolling::new(motion);
+        let one_sided = laws.one_sided().map(|one_sided| one_sided.shift(motion.approach));
+        let damped = one_sided.map(|shift| motion.approaching(motion.approach + shift.by));
+        let rolling = Rolling::new(damped.as_ref().unwrap_or(motion));
         let bounded = laws.mu().map(|mu| {
             let of_term = |planned: &PlannedTerm| {
                 let term = &planned.term;
@@ -256,6 +261,10 @@ impl ContactWrench {
             by_velocity,
             by_spin,
         };
+        if let Some(shift) = one_sided {
+            let n = &motion.normal;
+            found.by_velocity.force -= shift.slope * values[Action::Normal as usize].zeroth * n * n.transpose();
+        }
         if let Some((bound, free)) = bounded {
             let mut only = ByAction::default();
             only[Action::Tangential as usize] = free;

@@ -1,4 +1,5 @@
-//! Damping: resists the normal part of the relative velocity; dissipates β (d/d₀)^−ν (n·w)² per unit area.
+//! Damping: resists the normal part of the relative velocity; dissipates β (d/d₀)^−ν (n·w)² per unit area, unless it
+//! is one-sided.
 
 use super::{Action, LawKind, Term};
 
@@ -15,6 +16,8 @@ pub struct Damping {
     pub exponent: f64,
     /// d₀ [m], the gap at which the power is one.
     pub reference_gap: f64,
+    /// w₀ [m/s] of damping that hardly pulls on what recedes (`one_sided`); without it damping is viscous.
+    pub release: Option<f64>,
 }
 
 impl Damping {

@@ -4,7 +4,7 @@
 //! power that d^−7 asks for), so the requests are merged once, when the set is made; all bodies that obey it share it.
 
 use super::potential::{self, PotentialTerm};
-use super::{Action, AreaMeasure, ContactLaw, Term};
+use super::{Action, AreaMeasure, ContactLaw, OneSided, Term};
 use crate::load::{Interaction, Party};
 use crate::surface::{AxialMoments, MomentPlan, Moments, OrientedMoments, request};
 use std::sync::Arc;
@@ -29,6 +29,7 @@ pub struct LawSet {
     terms: Vec<PlannedTerm>,
     acts: [bool; Action::COUNT],
     mu: Option<f64>,
+    release: Option<f64>,
     values: MomentPlan,
     derivatives: MomentPlan,
     potentials: MomentPlan,
@@ -124,7 +125,8 @@ impl LawSet {
         let potentials = MomentPlan::new(requests);
         let acts = Action::ALL.map(|action| terms.iter().any(|planned| planned.term.action == action));
         let mu = laws.iter().find_map(ContactLaw::mu);
-        Self { measure, laws, terms, acts, mu, values, derivatives, potentials, potential_terms }
+        let release = laws.iter().find_map(ContactLaw::release);
+        Self { measure, laws, terms, acts, mu, release, values, derivatives, potentials, potential_terms }
     }
 
     /// The laws.
@@ -146,9 +148,14 @@ impl LawSet {
         self.mu
     }
 
+    /// Of damping that is one-sided: a contact has one damping.
+    pub(super) fn one_sided(&self) -> Option<OneSided> {
+        self.release.map(OneSided)
+    }
+
     /// Whether the loads are linear in the velocities.
     pub fn is_linear(&self) -> bool {
-        self.mu.is_none()
+        self.mu.is_none() && self.release.is_none()
     }
 
     /// The moments that the loads need.
@@ -182,7 +189,7 @@ mod tests {
     fn laws_share_the_powers_that_they_have_in_common() {
         let laws = vec![
             ContactLaw::Repulsion(Repulsion { alpha: 1.0, exponent: 6.0, reference_gap: 1.0 }),
-            ContactLaw::Damping(Damping { beta: 1.0, exponent: 5.0, reference_gap: 1.0 }),
+            ContactLaw::Damping(Damping { beta: 1.0, exponent: 5.0, reference_gap: 1.0, release: None }),
             ContactLaw::Friction(Friction { beta: 1.0, exponent: 5.0, reference_gap: 1.0, mu: None }),
         ];
         let laws = LawSet::new(AreaMeasure::default(), laws);

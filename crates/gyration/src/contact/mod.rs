@@ -7,7 +7,8 @@
 //! | friction  | −β (d/d₀)^−ν (I − n⊗n) w              | β [Pa s/m]         |
 //! | adhesion  | −β ((d/d₀)^−ν_a − (d/d₀)^−ν_r) n      | β [Pa], ν_r > ν_a  |
 //!
-//! The friction of a contact may have a bound, that of Coulomb (`bound`), which depends on all of the contact.
+//! The friction of a contact may have a bound, that of Coulomb (`bound`), and its damping may hardly pull on what
+//! recedes (`one_sided`): both depend on all of the contact.
 //!
 //! n is the support's unit normal, w the velocity relative to the support. A law sees a gap and a velocity, never a
 //! mesh, a body or a time. Each is a sum of [`Term`]s, one power of the gap each, which is all that `resultant` needs
@@ -20,6 +21,7 @@ mod damping;
 mod friction;
 mod law_set;
 mod meeting;
+mod one_sided;
 mod potential;
 mod repulsion;
 mod resultant;
@@ -35,6 +37,7 @@ pub use damping::Damping;
 pub use friction::Friction;
 pub use law_set::{Contact, ContactScratch, LawSet};
 pub use meeting::{Deformation, Meeting, RelativeMotion};
+pub(crate) use one_sided::{OneSided, Shift};
 pub use repulsion::Repulsion;
 pub use resultant::ContactLoads;
 pub use slopes::ContactSlopes;
@@ -160,6 +163,14 @@ impl ContactLaw {
         match self {
             Self::Friction(law) => law.mu,
             Self::Repulsion(_) | Self::Damping(_) | Self::Adhesion(_) => None,
+        }
+    }
+
+    /// w₀ [m/s] of a damping that is one-sided.
+    pub fn release(&self) -> Option<f64> {
+        match self {
+            Self::Damping(law) => law.release,
+            Self::Repulsion(_) | Self::Friction(_) | Self::Adhesion(_) => None,
         }
     }
 

@@ -15,7 +15,7 @@ use super::law_set::{ContactScratch, LawSet};
 use super::meeting::{Meeting, RelativeMotion};
 use super::sums::Sums;
 use super::tension::Tension;
-use super::{Action, LawKind};
+use super::{Action, LawKind, Shift};
 use crate::load::Loads;
 use crate::surface::{GapClosed, Moments};
 use crate::tensor::{Mat3, Vec3};
@@ -116,6 +116,18 @@ impl<'a> SplitMotion<'a> {
         self.speed * moments.zeroth + self.slope.dot(&moments.first)
     }
 
+    /// What a one-sided damping adds to the speed along n; none of one that is not, or is nothing.
+    pub fn shift(&self, laws: &LawSet, damping: &Sums) -> Option<Shift> {
+        let one_sided = laws.one_sided().filter(|_| damping.zeroth > 0.0)?;
+        Some(one_sided.shift(self.speed + self.slope.dot(&damping.first) / damping.zeroth))
+    }
+
+    /// The change of the mean speed w by which that is, with the sums, at velocities that are kept.
+    pub fn mean_along(&self, damping: &Sums, change: &Sums) -> f64 {
+        let center = damping.first / damping.zeroth;
+        self.slope.dot(&(change.first - change.zeroth * center)) / damping.zeroth
+    }
+
     /// What friction takes [W], ∫κ |v + V X|² dA.
     pub fn lost(&self, friction: &Sums) -> f64 {
         let Self { motion: RelativeMotion { normal, velocity, gradient_rate }, speed, slope } = self;
@@ -131,8 +143,9 @@ impl<'a> SplitMotion<'a> {
         let mut powers = [0.0; LawKind::COUNT];
         let (mut along, mut lever) = (central.zeroth, central.first);
         if laws.acts(Action::Normal) {
-            let push = -(speed * damping.zeroth + slope.dot(&damping.first));
-            let pull = -(*speed * damping.first + damping.second * slope);
+            let damped = self.shift(laws, damping).map_or(*speed, |shift| speed + shift.by);
+            let push = -(damped * damping.zeroth + slope.dot(&damping.first));
+            let pull = -(damped * damping.first + damping.second * slope);
             along += push;
             lever += pull;
             powers[LawKind::Damping as usize] = speed * push + slope.dot(&pull);

@@ -7,17 +7,19 @@
 //!   ∂Q/∂q = (∂Q by gap) ⊗ n + …,   ∂Q_ia/∂q̇_jb = −n_i n_j ∫κ_N X̃_a X̃_b dA − (δ_ij − n_i n_j) ∫κ_T X̃_a X̃_b dA
 //!
 //! with κ_N, κ_T of damping and friction. Under Coulomb's bound κ_T is σ κ, and the derivatives are those of its product
-//! with the viscous friction Q_T: Q_T ⊗ ∂σ beside, by the motion σ g Q_T ⊗ Q_T (`bound`).
+//! with the viscous friction Q_T: Q_T ⊗ ∂σ beside, by the motion σ g Q_T ⊗ Q_T (`bound`). One-sided damping is that of
+//! the motion with s − w added along n: Q_N ⊗ ∂(s − w) beside, Q_N the damping of a motion with n alone, by the motion
+//! −(s′ − 1)/B Q_N ⊗ Q_N (`one_sided`).
 
 use super::law_set::{ContactScratch, LawSet};
 use super::meeting::{Meeting, RelativeMotion};
 use super::resultant::SplitMotion;
 use super::sums::{SumSlopes, Sums, push};
 use super::tension::{PAIR, TensionSlopes};
-use super::{Action, AreaMeasure, Bound, Sliding};
+use super::{Action, AreaMeasure, Bound, Shift, Sliding};
 use crate::load::{COORDINATES, LoadSlopes, Loads, numbers};
 use crate::surface::{GapClosed, Moments, OrientedMoments};
-use crate::tensor::Mat3;
+use crate::tensor::{Mat3, Vec3};
 
 /// The loads of one contact and their derivatives.
 #[derive(Debug, Clone, Copy)]
@@ -32,6 +34,16 @@ pub struct ContactSlopes {
     /// Σ β d₀^ν × moments of damping and of friction.
     viscous: [Sums; 2],
     bounded: Option<BoundedFriction>,
+    opening: Option<OpeningDamping>,
+}
+
+/// One-sided damping, and what that of a motion with n alone is.
+#[derive(Debug, Clone, Copy)]
+struct OpeningDamping {
+    shift: Shift,
+    /// Σ β d₀^ν × moments.
+    sums: Sums,
+    loads: Loads,
 }
 
 /// Friction with a bound, and what it is without it.
@@ -61,16 +73,27 @@ impl ContactSlopes {
             BoundedFriction { bound, sums, loads }
         });
         let SumSlopes { values, by_gap: slopes } = sums;
+        let [_, damping, friction] = values;
+        let opening = split.shift(laws, &damping).map(|shift| {
+            let loads = damping.act(Action::Normal, normal, normal, &Mat3::zeros());
+            OpeningDamping { shift, sums: damping, loads }
+        });
         let mut total = Loads::default();
         let mut by_gap = [Loads::default(); 4];
         for action in Action::ALL.into_iter().filter(|action| laws.acts(*action)) {
-            total += values[action as usize].act(action, normal, velocity, gradient_rate);
+            let velocity = OpeningDamping::moved(&opening, action, velocity, normal);
+            total += values[action as usize].act(action, normal, &velocity, gradient_rate);
             for (sum, slope) in by_gap.iter_mut().zip(&slopes[action as usize]) {
-                *sum += slope.act(action, normal, velocity, gradient_rate);
+                *sum += slope.act(action, normal, &velocity, gradient_rate);
             }
         }
-        let [_, damping, friction] = values;
-        let mut this = Self { total, motion, by_gap, by_stretch: None, viscous: [damping, friction], bounded };
+        if let Some(opening) = &opening {
+            for (sum, slope) in by_gap.iter_mut().zip(&slopes[Action::Normal as usize]) {
+                *sum += opening.along(&split, slope);
+            }
+        }
+        let viscous = [damping, friction];
+        let mut this = Self { total, motion, by_gap, by_stretch: None, viscous, bounded, opening };
         this.stretch(laws, meeting, scratch)?;
         Ok(this)
     }
@@ -87,7 +110,15 @@ impl ContactSlopes {
             let mut sums = pair_sums(laws, moments, pair);
             self.bind(laws, moments, pair, &mut sums);
             let acting = Action::ALL.into_iter().filter(|action| laws.acts(*action));
-            acting.map(|action| sums[action as usize].act(action, normal, velocity, gradient_rate)).sum()
+            let loads: Loads = acting
+                .map(|action| {
+                    let velocity = OpeningDamping::moved(&self.opening, action, velocity, normal);
+                    sums[action as usize].act(action, normal, &velocity, gradient_rate)
+                })
+                .sum();
+            let split = SplitMotion::new(&self.motion);
+            let damping = &sums[Action::Normal as usize];
+            [loads].into_iter().chain(self.opening.iter().map(|opening| opening.along(&split, damping))).sum()
         });
         let trace: Loads = [pairs[0], pairs[3], pairs[5]].into_iter().sum();
         let mut by_stretch = PAIR.map(|pair| pairs[pair].scaled(-1.0));
@@ -160,6 +191,25 @@ impl ContactSlopes {
             let loads = numbers(loads);
             slopes.by_rate.ger(bound.by_motion(), &loads, &loads, 1.0);
         }
+        if let Some(OpeningDamping { shift, sums, loads }) = &self.opening {
+            let loads = numbers(loads);
+            slopes.by_rate.ger(-shift.slope / sums.zeroth, &loads, &loads, 1.0);
+        }
+    }
+}
+
+impl OpeningDamping {
+    /// The velocity that an action feels.
+    fn moved(opening: &Option<Self>, action: Action, velocity: &Vec3, normal: &Vec3) -> Vec3 {
+        match opening {
+            Some(opening) if action == Action::Normal => velocity + opening.shift.by * normal,
+            _ => *velocity,
+        }
+    }
+
+    /// What the change of the shift with that of the sums of damping adds.
+    fn along(&self, split: &SplitMotion, change: &Sums) -> Loads {
+        self.loads.scaled(self.shift.slope * split.mean_along(&self.sums, change))
     }
 }
 

@@ -11,6 +11,8 @@
 //! linear in the sums, so that derivatives through the gap are the same formula with other sums.
 //!
 //! Coulomb's bound scales T, and brings the change of its factor (`bound`): F_T ⊗ ∂σ beside, F_T the viscous friction.
+//! One-sided damping adds s(w) − w to the approach that N resists, w = s + N₁·c/N₀, and brings the change of that
+//! (`one_sided`): F_N ⊗ ∂(s(w) − w) beside, F_N = −(N₀ n, N₁×m).
 //!
 //! Normal and tangential parts are not mixed: next to a support one may exceed the other by more than the digits of a
 //! number. The force is therefore formed in space, where the normal of a support is often an axis.
@@ -18,7 +20,7 @@
 use super::law_set::{ContactScratch, LawSet};
 use super::meeting::RelativeMotion;
 use super::sums::{SumSlopes, Sums};
-use super::{Action, Bound, Sliding};
+use super::{Action, Bound, Shift, Sliding};
 use crate::load::{Wrench, WrenchSlope};
 use crate::surface::{GapClosed, GapField, Surface};
 use crate::tensor::{Mat3, Vec3, cross_matrix, turning};
@@ -73,6 +75,11 @@ impl RigidMotion {
         let approach = normal.dot(velocity);
         let sliding = velocity - approach * normal;
         Self { normal: *normal, direction: rotation.tr_mul(normal), approach, sliding, rotation: *rotation, spin }
+    }
+
+    /// The same with another approach.
+    pub(super) fn approaching(&self, approach: f64) -> Self {
+        Self { approach, ..*self }
     }
 
     /// c.
@@ -148,6 +155,46 @@ impl RigidMotion {
     }
 }
 
+/// One-sided damping of a rigid body, and that of a motion with n alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Opening {
+    pub shift: Shift,
+    /// w [m/s].
+    pub speed: f64,
+    /// N₁/N₀ [m].
+    pub center: Vec3,
+    /// F_N.
+    pub wrench: Wrench,
+    pub normal: Vec3,
+    resistance: f64,
+    /// c.
+    slope: Vec3,
+}
+
+impl Opening {
+    /// Of the sums of damping; none of one that is two-sided, or is nothing.
+    fn of(laws: &LawSet, motion: &RigidMotion, damping: &Sums) -> Option<Self> {
+        let one_sided = laws.one_sided().filter(|_| damping.zeroth > 0.0)?;
+        let (center, slope) = (damping.first / damping.zeroth, motion.slope());
+        let speed = motion.approach + center.dot(&slope);
+        let RigidMotion { normal, direction, .. } = motion;
+        let wrench = Wrench { force: -damping.zeroth * normal, torque: -damping.first.cross(direction) };
+        let shift = one_sided.shift(speed);
+        Some(Self { shift, speed, center, wrench, normal: *normal, resistance: damping.zeroth, slope })
+    }
+
+    /// δw with the sums of damping, the motion being kept.
+    fn mean_along(&self, change: &Sums) -> f64 {
+        self.slope.dot(&(change.first - change.zeroth * self.center)) / self.resistance
+    }
+
+    /// A change of the wrench, with that of w.
+    fn along(&self, mut change: Wrench, mean: f64) -> Wrench {
+        change += self.wrench.scaled(self.shift.slope * mean);
+        change
+    }
+}
+
 /// (1 − n⊗n) A.
 fn project(n: &Vec3, a: &Mat3) -> Mat3 {
     a - n * a.tr_mul(n).transpose()
@@ -168,11 +215,16 @@ impl RigidLoads {
         let mut sums = Sums::by_action(laws, moments);
         Sums::bind(&mut sums, laws, moments, |friction| motion.squared_across(friction));
         let [_, normal, tangential] = &sums;
-        Ok(Self {
+        let mut found = Self {
             wrench: motion.wrench(sums.each_ref()),
             damping_power: -motion.squared_along_normal(normal),
             friction_power: -motion.squared_across(tangential),
-        })
+        };
+        if let Some(opening) = Opening::of(laws, motion, normal) {
+            found.wrench += opening.wrench.scaled(opening.shift.by);
+            found.damping_power -= opening.shift.by * opening.speed * normal.zeroth;
+        }
+        Ok(found)
     }
 }
 
@@ -190,9 +242,13 @@ impl ContactWrench {
         surface.planned_moments(field, plan, moments)?;
         let mut sums = SumSlopes::new(laws, moments);
         let bounded = sums.bind(laws, moments, |friction| motion.squared_across(friction));
+        let opening = Opening::of(laws, motion, &sums.values[Action::Normal as usize]);
+        let damped = opening.as_ref().map(|opening| motion.approaching(motion.approach + opening.shift.by));
+        let motion = damped.as_ref().unwrap_or(motion);
         let through_gap = |slope: usize| {
             let [central, normal, tangential] = &sums.by_gap;
-            motion.wrench([&central[slope], &normal[slope], &tangential[slope]])
+            let wrench = motion.wrench([&central[slope], &normal[slope], &tangential[slope]]);
+            opening.as_ref().map_or(wrench, |opening| opening.along(wrench, opening.mean_along(&normal[slope])))
         };
         let by_direction = [through_gap(1), through_gap(2), through_gap(3)];
         let through_direction = WrenchSlope {
@@ -210,7 +266,22 @@ impl ContactWrench {
             only[Action::Tangential as usize] = free;
             found.add_bound(&bound, &motion.wrench(only.each_ref()), &motion.loss_by_turn(&free));
         }
+        if let Some(opening) = &opening {
+            found.add_opening(opening, &motion.direction, &motion.spin);
+        }
         Ok(found)
+    }
+
+    /// Adds what the shift of a one-sided damping changes by with the motion and a turn, the moments being kept.
+    pub(super) fn add_opening(&mut self, opening: &Opening, direction: &Vec3, spin: &Vec3) {
+        let Opening { shift, center, wrench, normal, .. } = opening;
+        let along = |by: &Vec3| WrenchSlope {
+            force: wrench.force * (shift.slope * by).transpose(),
+            torque: wrench.torque * (shift.slope * by).transpose(),
+        };
+        self.by_turn += along(&spin.cross(center).cross(direction));
+        self.by_velocity += along(normal);
+        self.by_spin += along(&center.cross(direction));
     }
 
     /// Adds what the factor of a bound changes by with the motion and a turn, given the viscous friction and how what it

@@ -21,6 +21,13 @@ pub struct WrenchSlope {
     pub torque: Mat3,
 }
 
+impl Wrench {
+    /// All of it times a factor.
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        Self { force: factor * self.force, torque: factor * self.torque }
+    }
+}
+
 impl AddAssign for Wrench {
     fn add_assign(&mut self, other: Self) {
         self.force += other.force;

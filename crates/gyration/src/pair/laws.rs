@@ -32,6 +32,8 @@ pub(super) struct ViscousLaw {
     pub exponent: f64,
     /// μ of a friction that has a bound.
     pub mu: Option<f64>,
+    /// w₀ of a damping that is one-sided [m/s].
+    pub release: Option<f64>,
     /// Where its moments stand in the plan `resisting`.
     pub value: usize,
     /// Where those of ν′ and of ν′ + 1 stand in the plan `resisting_slopes`.
@@ -75,12 +77,17 @@ impl PairLaws {
 
     /// Whether the loads are linear in the velocities.
     pub fn is_linear(&self) -> bool {
-        self.mu().is_none()
+        self.mu().is_none() && self.release().is_none()
     }
 
     /// μ, where the friction has a bound.
     pub fn mu(&self) -> Option<f64> {
         self.laws.iter().find_map(ContactLaw::mu)
+    }
+
+    /// w₀ [m/s], where the damping is one-sided.
+    pub(super) fn release(&self) -> Option<f64> {
+        self.laws.iter().find_map(ContactLaw::release)
     }
 
     /// Joins the laws between two bodies.
@@ -101,8 +108,8 @@ impl PairLaws {
                     }
                     let value = request(&mut values, *exponent, 2);
                     let slopes = [request(&mut slopes, *exponent, 2), request(&mut slopes, exponent + 1.0, 3)];
-                    let (kind, mu) = (law.kind(), law.mu());
-                    viscous.push(ViscousLaw { kind, coefficient, exponent: *exponent, mu, value, slopes });
+                    let (kind, mu, release) = (law.kind(), law.mu(), law.release());
+                    viscous.push(ViscousLaw { kind, coefficient, exponent: *exponent, mu, release, value, slopes });
                 }
                 ContactLaw::Adhesion(_) => return Err(PairLawsError::Missing { kind: LawKind::Adhesion }),
             }

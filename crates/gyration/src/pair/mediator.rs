@@ -19,10 +19,11 @@
 
 use super::fault::PairFault;
 use super::laws::{PairLaws, ViscousLaw, raised};
+use super::opening::Opening;
 use super::placed::Placed;
 use super::side::{Half, joined};
 use super::{Mat4, Mat34, Vec4};
-use crate::contact::{Bound, LawKind, Sliding};
+use crate::contact::{Bound, LawKind, OneSided, Sliding};
 use crate::load::Mat12;
 use crate::surface::Moments;
 use crate::tensor::{Mat3, Vec3, cross_matrix};
@@ -61,6 +62,8 @@ pub(super) struct Mediator {
     pub feet: Option<[Foot; 2]>,
     /// Of a friction that has one.
     pub bound: Option<Bound>,
+    /// Of a damping that is one-sided.
+    pub opening: Option<Opening>,
 }
 
 /// G = 1 − a⊗e of a side: e the height of X̃ over the plane, and a how X̃ changes with it along the normal.
@@ -152,6 +155,34 @@ pub(super) fn along(fields: &[Mat34; 3], weighed: &Mat34) -> Vec3 {
     Vec3::from_fn(|k, _| fields[k].dot(weighed))
 }
 
+/// Adds a factor times Q_i ⊗ Q_j.
+fn add_product(factor: f64, loads: [Mat34; 2], slopes: &mut [[Mat12; 2]; 2]) {
+    let loads = loads.map(|loads| Vec12::from_column_slice(loads.as_slice()));
+    for (side, acting) in loads.iter().enumerate() {
+        for (body, moved) in loads.iter().enumerate() {
+            slopes[side][body].ger(factor, acting, moved, 1.0);
+        }
+    }
+}
+
+/// η and W of a motion ΠV.
+pub(super) fn slipped(
+    system: &Cholesky<f64, Const<3>>,
+    pressed: &[[Mat34; 3]; 2],
+    fields: &[[Mat34; 3]; 2],
+    mut moved: [Mat34; 2],
+) -> (Vec3, [Mat34; 2]) {
+    let mut right = Vec3::zeros();
+    for side in 0..2 {
+        right += along(&pressed[side], &moved[side]);
+    }
+    let motion = system.solve(&right);
+    for (slip, fields) in moved.iter_mut().zip(fields) {
+        *slip -= combined(&motion, fields);
+    }
+    (motion, moved)
+}
+
 /// B_A B_B/(B_A + B_B).
 fn in_series([above, below]: [f64; 2]) -> f64 {
     above * (below / (above + below))
@@ -183,23 +214,23 @@ impl Mediator {
         });
         let fields = halves.map(|half| fields(kind, placed, &from_foot(half, foot)));
         let projector = projector(kind, &placed.plane.normal);
-        let mut slips = halves.map(|half| projector * half.rates());
+        let moved = halves.map(|half| projector * half.rates());
         let pressed = [0, 1].map(|side| fields[side].map(|field| field * moments[side]));
-        let (mut matrix, mut right) = (Mat3::zeros(), Vec3::zeros());
+        let mut matrix = Mat3::zeros();
         for side in 0..2 {
             for k in 0..3 {
-                right[k] += pressed[side][k].dot(&slips[side]);
                 for l in 0..3 {
                     matrix[(k, l)] += pressed[side][k].dot(&fields[side][l]);
                 }
             }
         }
         let system = matrix.cholesky().ok_or(PairFault::Singular(law.kind))?;
-        let motion = system.solve(&right);
-        for (slip, fields) in slips.iter_mut().zip(&fields) {
-            *slip -= combined(&motion, fields);
+        let (motion, slips) = slipped(&system, &pressed, &fields, moved);
+        let (bound, opening) = (None, None);
+        let mut found = Self { kind, moments, fields, pressed, slips, motion, system, feet, bound, opening };
+        if let Some(release) = law.release {
+            found.open(OneSided(release), &placed.plane.normal);
         }
-        let mut found = Self { kind, moments, fields, pressed, slips, motion, system, feet, bound: None };
         found.bound = law.mu.map(|mu| {
             let resistance = in_series(found.resistances());
             Bound::new(mu, Sliding { lost: -found.viscous_power(), resistance, push: placed.push() })
@@ -226,7 +257,8 @@ impl Mediator {
 
     /// The same without a bound.
     fn viscous_power(&self) -> f64 {
-        -(0..2).map(|side| (self.slips[side] * self.moments[side]).dot(&self.slips[side])).sum::<f64>()
+        let taken: f64 = (0..2).map(|side| (self.slips[side] * self.moments[side]).dot(&self.slips[side])).sum();
+        self.opening.as_ref().map_or(-taken, |opening| opening.power(taken))
     }
 
     /// B of both sides.
@@ -238,7 +270,8 @@ impl Mediator {
     ///
     ///   ∂(f | M)_i/∂V_j = G_i S⁻¹ G_jᵀ − δ_ij M_i⊗Π,   G_i = (B_1M_i, B_2M_i, B_3M_i),   S_kl = Σ ⟨B_k, B_l⟩
     ///
-    /// G is 12×3; the B_k lie in the image of Π. A bound takes σ of that, and σ g Q_i ⊗ Q_j beside, Q = (f | M) without it.
+    /// G is 12×3; the B_k lie in the image of Π. A bound takes σ of that, and σ g Q_i ⊗ Q_j beside, Q = (f | M) without
+    /// it; one-sided damping has −(s′ − 1)/K Q_i ⊗ Q_j beside, Q = (f | M) of E.
     pub fn add_by_rates(&self, normal: &Vec3, slopes: &mut [[Mat12; 2]; 2]) {
         let projector = projector(self.kind, normal);
         let factor = self.bound.as_ref().map_or(1.0, Bound::factor);
@@ -252,12 +285,11 @@ impl Mediator {
             }
             slopes[body][body] -= (factor * self.moments[body]).kronecker(&projector);
         }
-        let Some(bound) = &self.bound else { return };
-        let viscous = [0, 1].map(|side| Vec12::from_column_slice(self.viscous(side).as_slice()));
-        for (side, acting) in viscous.iter().enumerate() {
-            for (body, moved) in viscous.iter().enumerate() {
-                slopes[side][body].ger(bound.by_motion(), acting, moved, 1.0);
-            }
+        if let Some(bound) = &self.bound {
+            add_product(bound.by_motion(), [0, 1].map(|side| self.viscous(side)), slopes);
+        }
+        if let Some(opening) = &self.opening {
+            add_product(opening.by_motion(), [0, 1].map(|side| self.opening_loads(opening, side)), slopes);
         }
     }
 }

@@ -14,6 +14,7 @@
 use super::expansion::Change;
 use super::laws::ViscousLaw;
 use super::mediator::{Mediator, Shares, along, combined, from_foot, uniform, upright};
+use super::opening::SideChange;
 use super::side::joined;
 use super::state::PairState;
 use super::{Mat4, Mat34, Vec4};
@@ -80,7 +81,7 @@ impl Mediator {
         places: [&Mat34; 2],
         change: &Change,
     ) -> [Mat34; 2] {
-        let (mut right, mut lost, mut resistances) = (Vec3::zeros(), 0.0, [0.0; 2]);
+        let (mut right, mut lost, mut resistances, mut mean) = (Vec3::zeros(), 0.0, [0.0; 2], 0.0);
         let changed = [0, 1].map(|side| {
             let moments = self.moments_along(state, side, &slopes[side], places[side], change);
             let fields = self.fields_along(state, &slopes[side], places[side], change);
@@ -88,7 +89,16 @@ impl Mediator {
             let sign = if self.kind == LawKind::Damping { 1.0 } else { -1.0 };
             let turned = change.normal * rising.transpose()
                 + state.placed.plane.normal * rates.tr_mul(&change.normal).transpose();
-            let slip = sign * turned - combined(&self.motion, &fields);
+            let mut slip = sign * turned - combined(&self.motion, &fields);
+            if let Some(opening) = &self.opening {
+                let mut tilted = -combined(opening.motion(), &fields);
+                if side == 0 {
+                    slip += opening.by() * uniform(&change.normal);
+                    tilted += uniform(&change.normal);
+                }
+                let change = SideChange { side, slip: &slip, tilted: &tilted, moments: &moments };
+                mean += self.mean_along(opening, &change);
+            }
             let slipped = slip * self.moments[side];
             let changed = self.slips[side] * moments + slipped;
             right += along(&self.fields[side], &changed) - along(&fields, &self.viscous(side));
@@ -100,6 +110,9 @@ impl Mediator {
         });
         let motion = self.system.solve(&right);
         let viscous = [0, 1].map(|side| combined(&motion, &self.pressed[side]) - changed[side]);
+        if let Some(opening) = &self.opening {
+            return [0, 1].map(|side| viscous[side] + self.opened(opening, side, mean));
+        }
         let Some(bound) = &self.bound else { return viscous };
         let own = self.resistances();
         let resistance = (0..2).map(|side| resistances[side] * (own[1 - side] / (own[0] + own[1])).powi(2)).sum();

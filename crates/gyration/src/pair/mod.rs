@@ -31,6 +31,7 @@
 //! | `state`       | a pair whose plane is found, and what both ends have of it       |
 //! | `mediator`    | damping and friction against the velocities of the plane        |
 //! | `mediator_slopes` | how these change with the places of both                    |
+//! | `opening`     | damping that hardly pulls on what recedes                       |
 //! | `loads`       | forces, moments, energy and powers                               |
 //! | `slopes`      | their derivatives by the coordinates and velocities of both      |
 
@@ -46,6 +47,7 @@ mod laws;
 mod loads;
 mod mediator;
 mod mediator_slopes;
+mod opening;
 mod overlap;
 mod placed;
 mod plane;

@@ -31,7 +31,7 @@ pub fn laws(exponents: [f64; 4]) -> Vec<ContactLaw> {
     let [repulsion, damping, friction, adhesion] = exponents;
     vec![
         ContactLaw::Repulsion(Repulsion { alpha: 2.0, exponent: repulsion, reference_gap: 0.3 }),
-        ContactLaw::Damping(Damping { beta: 0.7, exponent: damping, reference_gap: 0.4 }),
+        ContactLaw::Damping(Damping { beta: 0.7, exponent: damping, reference_gap: 0.4, release: None }),
         ContactLaw::Friction(Friction { beta: 0.9, exponent: friction, reference_gap: 0.2, mu: None }),
         ContactLaw::Adhesion(Adhesion {
             beta: 1.3,
@@ -66,7 +66,7 @@ pub fn resistances(frame: Frame) -> Vec<LinearResistance> {
     ]
 }
 
-/// The same model, the friction of whose contacts has a bound.
+/// The same model, the friction of whose contacts has a bound μ, and whose damping is one-sided with some w₀ [m/s].
 pub fn bounded(model: Model, mu: f64) -> Model {
     let bind = |contact: &Contact| {
         let laws = contact.law_set.laws().iter().map(|law| bounded_law(*law, mu)).collect();
@@ -76,10 +76,11 @@ pub fn bounded(model: Model, mu: f64) -> Model {
     model.with_contacts(contacts)
 }
 
-/// The same law, with a bound if it is a friction.
+/// The same law, with a bound if it is a friction, and one-sided if it is a damping.
 pub fn bounded_law(law: ContactLaw, mu: f64) -> ContactLaw {
     match law {
         ContactLaw::Friction(friction) => ContactLaw::Friction(Friction { mu: Some(mu), ..friction }),
+        ContactLaw::Damping(damping) => ContactLaw::Damping(Damping { release: Some(0.3), ..damping }),
         other => other,
     }
 }

@@ -111,17 +111,18 @@ fn laws(exponents: [f64; 3], viscous: bool) -> PairLaws {
     let [repulsion, damping, friction] = exponents;
     let mut laws = vec![ContactLaw::Repulsion(Repulsion { alpha: 1.3, exponent: repulsion, reference_gap: 0.1 })];
     if viscous {
-        laws.push(ContactLaw::Damping(Damping { beta: 0.7, exponent: damping, reference_gap: 0.2 }));
+        laws.push(ContactLaw::Damping(Damping { beta: 0.7, exponent: damping, reference_gap: 0.2, release: None }));
         laws.push(ContactLaw::Friction(Friction { beta: 0.9, exponent: friction, reference_gap: 0.15, mu: None }));
     }
     PairLaws::new(AreaMeasure::ReferenceArea, laws).unwrap()
 }
 
-/// The same laws, and these with a bound on friction that it meets and exceeds.
+/// The same laws, and these with a bound on friction that it meets and exceeds, and one-sided damping.
 fn bounded_too(laws: &PairLaws) -> Vec<PairLaws> {
     let bounded = |mu: f64| {
         let bind = |law: &ContactLaw| match law {
             ContactLaw::Friction(friction) => ContactLaw::Friction(Friction { mu: Some(mu), ..*friction }),
+            ContactLaw::Damping(damping) => ContactLaw::Damping(Damping { release: Some(0.3), ..*damping }),
             other => *other,
         };
         PairLaws::new(laws.measure, laws.laws().iter().map(bind).collect()).unwrap()

@@ -137,7 +137,7 @@ fn planes_are_found_between_faces_that_nearly_touch() {
 #[test]
 fn viscous_laws_without_strength_do_nothing() {
     let repulsion = ContactLaw::Repulsion(Repulsion { alpha: 1.0, exponent: 6.0, reference_gap: 0.1 });
-    let none = ContactLaw::Damping(Damping { beta: 0.0, exponent: 6.0, reference_gap: 0.1 });
+    let none = ContactLaw::Damping(Damping { beta: 0.0, exponent: 6.0, reference_gap: 0.1, release: None });
     let law = |laws| PairLaws::new(AreaMeasure::DeformedArea, laws).unwrap();
     let halves = [still(Surface::sphere(0.5), 1.1), still(Surface::sphere(0.5), 0.0)];
     let [with, without] = [law(vec![repulsion, none]), law(vec![repulsion])];

@@ -5,11 +5,12 @@ use crate::contact::{Adhesion, AreaMeasure, ContactLaw, Damping, Friction, Relat
 
 const RADIUS: f64 = 0.3;
 
+/// Without μ damping is two-sided, too.
 fn laws(measure: AreaMeasure, exponent: f64, mu: Option<f64>) -> LawSet {
     let reference_gap = 0.1;
     let laws = vec![
         ContactLaw::Repulsion(Repulsion { alpha: 2.0, exponent, reference_gap }),
-        ContactLaw::Damping(Damping { beta: 0.7, exponent, reference_gap }),
+        ContactLaw::Damping(Damping { beta: 0.7, exponent, reference_gap, release: mu }),
         ContactLaw::Friction(Friction { beta: 0.9, exponent: exponent - 1.0, reference_gap, mu }),
         ContactLaw::Adhesion(Adhesion {
             beta: 1.3,

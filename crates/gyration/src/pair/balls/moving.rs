@@ -1,7 +1,7 @@
 //! How two balls move along their normal and across it, and what resistances make of that.
 
 use super::PlacedBalls;
-use crate::contact::LawKind;
+use crate::contact::{LawKind, OneSided, Shift};
 use crate::load::Loads;
 use crate::pair::side::{SIGNS, Side};
 use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
@@ -26,6 +26,9 @@ pub(super) struct Moving {
     pub heights: [f64; 2],
     /// n·v [m/s].
     pub approach: f64,
+    /// That which damping resists [m/s]: s(n·v) of a one-sided one; and its derivative.
+    pub damped: f64,
+    pub damped_slope: f64,
     /// v [m/s].
     pub velocity: Vec3,
     /// u [m/s].
@@ -67,7 +70,8 @@ impl Resistance {
 }
 
 impl Moving {
-    pub fn new(placed: &PlacedBalls, sides: [&Side; 2]) -> Self {
+    /// `release` is w₀ of one-sided damping [m/s].
+    pub fn new(placed: &PlacedBalls, sides: [&Side; 2], release: Option<f64>) -> Self {
         let normal = placed.normal;
         let heights = [0, 1].map(|i| placed.balls.radii[i] + placed.gaps[i]);
         let spins = sides.map(|side| 0.5 * axial(&(side.velocity.gradient_rate * side.inverse)));
@@ -75,7 +79,11 @@ impl Moving {
         let approach = velocity.dot(&normal);
         let rolling = heights[0] * spins[0] + heights[1] * spins[1];
         let slip = velocity - approach * normal - rolling.cross(&normal);
-        Self { normal, heights, approach, velocity, slip, spins, spin: spins[0] - spins[1] }
+        let (damped, damped_slope) = release.map_or((approach, 1.0), |release| {
+            let Shift { by, slope } = OneSided(release).shift(approach);
+            (approach + by, 1.0 + slope)
+        });
+        Self { normal, heights, approach, damped, damped_slope, velocity, slip, spins, spin: spins[0] - spins[1] }
     }
 
     /// How it is seen with one component of p_A − p_B changed, given how the gaps of both grow with the slab.
@@ -92,7 +100,7 @@ impl Moving {
 
     /// −f_A: what a resistance makes of this motion.
     pub fn force(&self, by: &Resistance) -> Vec3 {
-        by.approach * self.approach * self.normal + by.slip * self.slip
+        by.approach * self.damped * self.normal + by.slip * self.slip
     }
 
     /// D_⊥ Πω + k (n·ω) n.
@@ -109,7 +117,7 @@ impl Moving {
     pub fn powers(&self, by: &Resistance) -> [f64; 2] {
         let drilling = self.normal.dot(&self.spin).powi(2);
         let tilting = self.normal.cross(&self.spin).norm_squared();
-        let damping = by.approach * self.approach.powi(2) + by.tilt * tilting;
+        let damping = by.approach * (self.approach * self.damped) + by.tilt * tilting;
         [-damping, -(by.slip * self.slip.norm_squared() + by.drill * drilling)]
     }
 }

@@ -173,14 +173,17 @@ fn slopes_are_those_of_the_general_method() {
     assert!(worst < 1e-11);
 }
 
-/// Damping, friction or both, of exponents of their own; friction viscous, and with bounds that it meets and exceeds.
-fn resistances(exponents: [f64; 2]) -> [Vec<ContactLaw>; 5] {
+/// Damping, friction or both, of exponents of their own; friction viscous, and with bounds that it meets and
+/// exceeds; damping one-sided.
+fn resistances(exponents: [f64; 2]) -> [Vec<ContactLaw>; 6] {
     let [one, other] = exponents;
-    let damping = ContactLaw::Damping(Damping { beta: 5e4, exponent: one, reference_gap: 0.01 });
+    let damping = |release| ContactLaw::Damping(Damping { beta: 5e4, exponent: one, reference_gap: 0.01, release });
+    let (one_sided, damping) = (damping(Some(0.5)), damping(None));
     let friction = |mu| ContactLaw::Friction(Friction { beta: 4e5, exponent: other, reference_gap: 0.02, mu });
     let [near, far] = [Some(1e6), Some(0.3)].map(friction);
     let friction = friction(None);
-    [vec![damping], vec![friction], vec![damping, friction], vec![near], vec![damping, far]]
+    let both = vec![one_sided, friction];
+    [vec![damping], vec![friction], vec![damping, friction], vec![near], vec![damping, far], both]
 }
 
 /// Force and torque, since a rigid body feels no more of a moment.

@@ -9,7 +9,8 @@
 //!   f_A = −D₀ (n·v) n − F₀u = −f_B,   τ_i = h_i F₀ n×u − σ_i (D_⊥ Πω + k (n·ω) n)
 //!   power of damping −D₀ (n·v)² − D_⊥ |Πω|²,   of friction −F₀u² − k (n·ω)²
 //!
-//! Torques are about the centres, M = ½ [τ]× P. Coulomb's bound scales F₀ and k (`bound`).
+//! Torques are about the centres, M = ½ [τ]× P. Coulomb's bound scales F₀ and k (`bound`); one-sided damping
+//! has s(n·v) in the place of n·v in f.
 
 use super::bound::BoundedSlip;
 use super::moving::{Moving, Resistance, Shifted, column};
@@ -116,7 +117,7 @@ impl PlacedBalls<'_> {
             };
             by.add(law.kind, own(|moments| moments.zeroth), own(|moments| moments.across));
         }
-        let moving = Moving::new(self, sides);
+        let moving = Moving::new(self, sides, laws.release());
         if let Some(mu) = laws.mu() {
             let bound = moving.bound(mu, &by, switch.slope * repelled.force);
             by.bind(bound.factor());
@@ -170,7 +171,7 @@ impl PlacedBalls<'_> {
             by.add(kind, whole.value, across.value);
             by_gap.add(kind, whole.slope, across.slope);
         }
-        let moving = Moving::new(self, sides);
+        let moving = Moving::new(self, sides, laws.release());
         let bounded = laws.mu().map(|mu| BoundedSlip::new(&moving, mu, [&mut by, &mut by_gap], push));
         self.add_resistance(sides, &moving, &by, &mut slopes.loads);
         self.differentiate(sides, &moving, [&by, &by_gap], shares_of_gap, slopes);
@@ -203,7 +204,7 @@ impl PlacedBalls<'_> {
         let gradients = sides.map(|side| &side.placement.gradient);
         let by_rate = slopes.by_rate.get_or_insert(PairSlopes::ZEROS);
         // By v, of A.
-        let pushed = -(by.approach * along + by.slip * level);
+        let pushed = -(by.approach * moving.damped_slope * along + by.slip * level);
         let placed = self.along_places(moving, [by, by_gap], shares_of_gap);
         for side in 0..2 {
             let (height, sign, gradient) = (heights[side], SIGNS[side], gradients[side]);
@@ -241,13 +242,13 @@ impl PlacedBalls<'_> {
         [by, by_gap]: [&Resistance; 2],
         shares_of_gap: [f64; 2],
     ) -> (Mat3, [Mat3; 2]) {
-        let Moving { normal: n, heights, approach, slip, spin, .. } = moving;
+        let Moving { normal: n, heights, damped, damped_slope, slip, spin, .. } = moving;
         let (mut force, mut torques) = (Mat3::zeros(), [Mat3::zeros(); 2]);
         let drilling = n.dot(spin);
         for axis in 0..3 {
             let Shifted { wider, turned, approached, slipped } = moving.shifted(self, axis, shares_of_gap);
-            let pushed =
-                wider * moving.force(by_gap) + by.approach * (approached * n + *approach * turned) + by.slip * slipped;
+            let damped = damped_slope * approached * n + *damped * turned;
+            let pushed = wider * moving.force(by_gap) + by.approach * damped + by.slip * slipped;
             force.set_column(axis, &-pushed);
             let twisted =
                 wider * moving.twist(by_gap) + (by.drill - by.tilt) * (turned.dot(spin) * n + drilling * turned);
