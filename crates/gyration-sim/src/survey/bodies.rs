@@ -204,8 +204,8 @@ fn survey_body(model: &Model, start: &State, index: usize) -> BodySurvey {
     let pair = |support: usize| {
         let approach = Approach::new(model, start, index, support)?;
         let contacts = model.contacts_of(index).filter(|contact| contact.support == support);
-        let laws = contacts.flat_map(|contact| contact.law_set.laws());
-        let laws: Vec<LawSurvey> = laws.map(|law| LawSurvey::of(law, &body.solid.shape)).collect();
+        let laws: Vec<LawSurvey> =
+            contacts.flat_map(|contact| LawSurvey::all(contact.law_set.laws(), &body.solid.shape)).collect();
         Some(PairSurvey {
             support: model.supports[support].name.clone(),
             initial_gap: approach.initial_gap,

@@ -94,13 +94,16 @@ fn write_rests(text: &mut String, pairs: &[&PairSurvey], deforms: bool) {
     let if_so = if deforms { "if they kept their shapes" } else { "in the orientations of the start" };
     let verb = if stable().any(|rest| rest.descent.is_some()) { "go down the slope" } else { "rest" };
     let _ = writeln!(text, "    {verb} at gaps of {} m {if_so}", between(stable().map(|rest| rest.gap)));
-    let lines: [(&str, OfRest, &str); 6] = [
+    let lines: [(&str, OfRest, &str); 9] = [
         ("sliding in the end at", |rest| rest.descent?.speed(), " m/s"),
         ("stiffness", |rest| Some(rest.stiffness), " N/m"),
         ("period", |rest| rest.period, " s"),
         ("damping ratio", |rest| rest.damping_ratio, ""),
         ("decays in", |rest| rest.damping_time, " s"),
         ("sliding decays in", |rest| rest.friction_time, " s"),
+        ("friction is as strong as the weight at", |rest| Some(rest.slip?.weight_speed), " m/s"),
+        ("friction holds up to", |rest| rest.slip?.bound, " of the weight"),
+        ("slow rolling decays in", |rest| rest.slip?.rolling_time, " s"),
     ];
     for (name, of, unit) in lines {
         if let Some(values) = range(of) {

@@ -4,9 +4,11 @@
 //! only as ln d, so that a body that is fast enough comes nearer than the digits of a number tell. The table of 1 + p
 //! is that of `gyration::shape::Feature`. Source: `docs/theory-rigid.md`.
 
+use crate::format::significant;
 use gyration::contact::{ContactLaw, LawKind};
 use gyration::shape::Shape;
 use serde::Serialize;
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// What a law does when the body is pressed on the support.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -25,11 +27,26 @@ pub struct LawSurvey {
     pub forbids_touching: Option<bool>,
     /// Whether it only just does: the work against it grows as the logarithm of the gap.
     pub only_just: bool,
+    /// c = β/α of friction with the exponent of the repulsion: of the force N of that, friction is c N w at the slip w
+    /// [s/m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub strength: Option<f64>,
+    /// μ, Coulomb's bound on friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mu: Option<f64>,
+    /// w₀ of one-sided damping [m/s].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub release: Option<f64>,
 }
 
 impl LawSurvey {
+    /// The verdicts on laws that act together, for a shape.
+    pub fn all<'a>(laws: &'a [ContactLaw], shape: &Shape) -> Vec<Self> {
+        laws.iter().map(|law| Self { strength: strength(law, laws), ..Self::of(law, shape) }).collect()
+    }
+
     /// The verdict on a law for a shape.
-    pub fn of(law: &ContactLaw, shape: &Shape) -> Self {
+    fn of(law: &ContactLaw, shape: &Shape) -> Self {
         let feature = shape.sharpest_feature();
         let exponent = law.leading_exponent();
         let acts = law.terms().iter().flatten().any(|term| term.coefficient != 0.0);
@@ -44,6 +61,9 @@ impl LawSurvey {
             acts,
             forbids_touching,
             only_just: forbids_touching == Some(true) && critical == Some(exponent),
+            strength: None,
+            mu: law.mu(),
+            release: law.release(),
         }
     }
 
@@ -61,7 +81,36 @@ impl LawSurvey {
             ),
             Some(true) => format!("{name:<10} ν = {exponent} ≥ {critical} ({feature}): forbids touching"),
             Some(false) => format!("{name:<10} ν = {exponent} < {critical} ({feature}): does not forbid touching"),
-            None => format!("{name:<10} ν = {exponent}: acts across the normal, forbids nothing"),
+            None => {
+                format!("{name:<10} ν = {exponent}: acts across the normal, forbids nothing{}", self.slipperiness())
+            }
         }
     }
+
+    /// What friction holds, in clauses.
+    fn slipperiness(&self) -> String {
+        let viscous = |c: &f64| format!("; as strong as the repulsion at a slip of {} m/s", significant(1.0 / c, 5));
+        let creeps = |mu: f64, c: f64| {
+            let (creep, part) = (significant(mu / c, 5), significant(FRAC_1_SQRT_2 * mu, 5));
+            format!(", and what it holds creeps: at {creep} m/s where that is {part} of it")
+        };
+        match self.mu {
+            None => self.strength.as_ref().map(viscous).unwrap_or_default(),
+            Some(mu) => {
+                let creep = self.strength.map(|c| creeps(mu, c)).unwrap_or_default();
+                format!("; holds up to {mu} of the force of the repulsion{creep}")
+            }
+        }
+    }
+}
+
+/// c of a friction whose exponent is that of the repulsion beside it [s/m].
+fn strength(law: &ContactLaw, laws: &[ContactLaw]) -> Option<f64> {
+    let ContactLaw::Friction(_) = law else { return None };
+    let [friction, ..] = law.terms();
+    let repulsion = laws.iter().find(|law| law.kind() == LawKind::Repulsion)?;
+    let [repulsion, ..] = repulsion.terms();
+    let (friction, repulsion) = (friction?, repulsion?);
+    let acts = friction.coefficient > 0.0 && repulsion.coefficient > 0.0;
+    (acts && friction.exponent == repulsion.exponent).then(|| friction.coefficient / repulsion.coefficient)
 }

@@ -66,9 +66,10 @@ impl MeetingSurvey {
     }
 
     fn of(model: &Model, start: &State, pair: &Pair, initial_gap: Option<f64>) -> Self {
-        let [one, other] = solids(model, pair).map(|solid| &solid.shape);
-        let sharper = if one.sharpest_feature() >= other.sharpest_feature() { one } else { other };
-        let laws: Vec<LawSurvey> = pair.form.laws.laws().iter().map(|law| LawSurvey::of(law, sharper)).collect();
+        let shapes = solids(model, pair).map(|solid| &solid.shape);
+        let [first, second] = shapes.map(|shape| shape.sharpest_feature());
+        let sharper = if first >= second { shapes[0] } else { shapes[1] };
+        let laws = LawSurvey::all(pair.form.laws.laws(), sharper);
         Self {
             between: pair.parties.map(|party| model.party_name(party).to_owned()),
             initial_gap,

@@ -13,12 +13,14 @@
 //!
 //!   v = m |g_t|/c_t,   g_t = g − n (n·g),
 //!
-//! at which friction carries the weight's part along it; one that is round along the slope rolls. A body that something
+//! at which friction carries the weight's part along it, or at that of `slip` under a bound on friction; one that is
+//! round along the slope rolls. A body that something
 //! else holds too, a pin, a spring, another support, rests elsewhere: no such gap is then given, but the reason why
 //! not. A body that deforms keeps the P of its start here; where it really rests, deformed by its weight, is its rest
 //! state (`modes`).
 
 use super::balance::TrialGaps;
+use super::slip::Slip;
 use gyration::contact::{
     Contact, ContactLoads, ContactScratch, ContactSlopes, Deformation, Meeting, RelativeMotion, Term,
 };
@@ -58,6 +60,9 @@ pub struct RestGap {
     pub damping_time: Option<f64>,
     /// Time in which sliding falls to 1/e [s]; none without friction.
     pub friction_time: Option<f64>,
+    /// What friction does; none without friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slip: Option<Slip>,
     /// What the body does along the support; none of one that is level.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub descent: Option<Descent>,
@@ -72,9 +77,9 @@ pub enum Descent {
         /// v [m/s].
         speed: f64,
     },
-    /// It slides faster and faster [m/s²]: there is no friction.
+    /// It slides faster and faster [m/s²]: there is no friction, or not enough.
     Accelerates {
-        /// |g_t| [m/s²].
+        /// |g_t|, less what friction holds [m/s²].
         acceleration: f64,
     },
     /// Nothing keeps it from turning down the slope: it is round, or stands on an edge.
@@ -105,6 +110,8 @@ pub struct Approach<'a> {
     /// How the surface is deformed, if the body may be.
     deformation: Option<Deformation>,
     mass: f64,
+    /// J [kg m²].
+    euler: Mat3,
     /// g_t.
     along: Vec3,
     size: f64,
@@ -135,6 +142,7 @@ impl<'a> Approach<'a> {
             gradient: motion.placement.gradient,
             deformation: body.affine().and_then(|_| Deformation::of(&motion.placement.gradient)),
             mass: body.solid.mass.mass,
+            euler: body.solid.mass.euler_tensor,
             along: along_plane(&model.gravity, &plane.normal),
             size: body.size,
             keeps_digits: body.keeps_digits(surface),
@@ -142,6 +150,37 @@ impl<'a> Approach<'a> {
             initial_gap,
             no_rest_because: held_otherwise(model, index),
         })
+    }
+
+    /// The contacts of both.
+    pub(super) fn contacts(&self) -> &[&'a Contact] {
+        &self.contacts
+    }
+
+    /// n.
+    pub(super) fn normal(&self) -> &Vec3 {
+        &self.normal
+    }
+
+    /// P.
+    pub(super) fn gradient(&self) -> &Mat3 {
+        &self.gradient
+    }
+
+    /// m [kg].
+    pub(super) fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// The moment of inertia about an axis through the centre [kg m²].
+    pub(super) fn inertia_about(&self, axis: &Vec3) -> f64 {
+        let spatial = self.gradient * self.euler * self.gradient.transpose();
+        spatial.trace() - axis.dot(&(spatial * axis))
+    }
+
+    /// Whether a stiffness against turning [N m] is none beside that along the normal [N/m].
+    pub(super) fn is_round(&self, turning: f64, stiffness: f64) -> bool {
+        turning <= ROUND * stiffness * self.size.powi(2)
     }
 
     /// Whether any law acts.
@@ -165,7 +204,7 @@ impl<'a> Approach<'a> {
     }
 
     /// The body at a gap, without velocity.
-    fn contact_state(&self, gap: f64) -> Meeting<'a> {
+    pub(super) fn contact_state(&self, gap: f64) -> Meeting<'a> {
         Meeting {
             surface: self.surface,
             field: self.surface.field_at(gap, self.direction),
@@ -205,22 +244,26 @@ impl<'a> Approach<'a> {
     }
 
     /// What the body does along a slope, where the laws have these slopes and this stiffness along n.
-    fn descent(&self, slopes: &LoadSlopes, stiffness: f64) -> Option<Descent> {
+    fn descent(&self, gap: f64, slopes: &LoadSlopes, stiffness: f64) -> Option<Descent> {
         let down = self.along.try_normalize(0.0)?;
         let (acceleration, resistance) = (self.along.norm(), against(&slopes.by_rate, &down));
         if resistance <= 0.0 {
             return Some(Descent::Accelerates { acceleration });
         }
-        let keeps_flat =
-            self.turning_stiffness(slopes, &self.normal.cross(&down)) > ROUND * stiffness * self.size.powi(2);
-        Some(match keeps_flat {
-            true => Descent::Slides { speed: self.mass * acceleration / resistance },
-            false => Descent::Rolls,
+        if self.is_round(self.turning_stiffness(slopes, &self.normal.cross(&down)), stiffness) {
+            return Some(Descent::Rolls);
+        }
+        let viscous = self.mass * acceleration / resistance;
+        let Some(most) = self.most_friction(gap) else { return Some(Descent::Slides { speed: viscous }) };
+        let part = self.mass * acceleration / most;
+        Some(match part < 1.0 {
+            true => Descent::Slides { speed: viscous / (1.0 - part * part).sqrt() },
+            false => Descent::Accelerates { acceleration: acceleration - most / self.mass },
         })
     }
 
     /// d²U/dθ² of a turn about an axis through the centre [N m]: P = exp(θ[a]×) P₀ has δP = [a]× P₀, δ²P = [a]×² P₀.
-    fn turning_stiffness(&self, slopes: &LoadSlopes, axis: &Vec3) -> f64 {
+    pub(super) fn turning_stiffness(&self, slopes: &LoadSlopes, axis: &Vec3) -> f64 {
         let (turn, bend) = (cross_matrix(axis) * self.gradient, cross_matrix(axis).pow(2) * self.gradient);
         let change = slopes.by_place.fixed_view::<9, 9>(3, 3) * SVector::<f64, 9>::from_column_slice(turn.as_slice());
         0.0 - turn.dot(&Mat3::from_column_slice(change.as_slice())) - bend.dot(&slopes.loads.moment)
@@ -245,7 +288,8 @@ impl<'a> Approach<'a> {
             damping_ratio: ratio,
             damping_time: frequency.zip(ratio).map(|(frequency, ratio)| decay_time(frequency, ratio)),
             friction_time: (tangential_resistance > 0.0).then(|| self.mass / tangential_resistance),
-            descent: self.descent(&slopes, stiffness),
+            slip: self.slip(gap, &slopes, tangential_resistance, stiffness),
+            descent: self.descent(gap, &slopes, stiffness),
         })
     }
 }

@@ -130,7 +130,25 @@ fn write_gap(text: &mut String, rest: &RestGap, deforms: bool) {
         let _ = writeln!(text, "      damping ratio {}: {kind}, decays in {} s", short(ratio), short(time));
     }
     if let Some(time) = rest.friction_time {
-        let _ = writeln!(text, "      sliding decays in {} s", short(time));
+        let slow = if rest.slip.is_some_and(|slip| slip.bound.is_some()) { "slow sliding" } else { "sliding" };
+        let _ = writeln!(text, "      {slow} decays in {} s{}", short(time), friction(rest));
+    }
+    if let Some(time) = rest.slip.and_then(|slip| slip.rolling_time) {
+        let _ = writeln!(text, "      slow rolling decays in {} s", short(time));
+    }
+}
+
+/// What friction does, in a clause.
+fn friction(rest: &RestGap) -> String {
+    let Some(slip) = rest.slip else { return String::new() };
+    match slip.bound.zip(slip.creep()) {
+        None => format!("; friction is as strong as the weight at {} m/s", short(slip.weight_speed)),
+        Some((bound, creep)) => format!(
+            "; friction holds up to {} of the weight, and what it holds creeps: at {} m/s under {} of it",
+            short(bound),
+            short(creep),
+            short(std::f64::consts::FRAC_1_SQRT_2 * bound),
+        ),
     }
 }
 
