@@ -4,10 +4,17 @@ use super::{ExperimentKind, FreeNumber};
 use gyration_scene::Template;
 use gyration_scene::input::InputFile;
 use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
 
-/// Whether anything could have been measured so: a rebound gives back no more than the drop, within three deviations.
+/// Whether anything could have been measured so: a rebound gives back no more than the drop, within three deviations, and
+/// what slides at all does on a wall.
 pub(super) fn is_possible(kind: ExperimentKind, condition: f64, measured: f64, deviation: f64) -> bool {
-    measured > 0.0 && (kind != ExperimentKind::Drop || measured < condition + 3.0 * deviation)
+    let most = match kind {
+        ExperimentKind::Drop => condition + 3.0 * deviation,
+        ExperimentKind::Begins => FRAC_PI_2,
+        ExperimentKind::Slope | ExperimentKind::Gap | ExperimentKind::PullOff => f64::INFINITY,
+    };
+    measured > 0.0 && measured < most
 }
 
 /// Notes numbers of the scene that are found twice, or set by what was measured.

@@ -69,7 +69,7 @@ pub enum Scale {
 
 /// A table of measurements; each list may be a single number.
 macro_rules! measurements {
-    ($(#[$about:meta])* $name:ident { $($(#[$doc:meta])* $column:ident),* }) => {
+    ($(#[$about:meta])* $name:ident { $($(#[$doc:meta])* $column:ident),* $(; $(#[$told:meta])* $flag:ident)? }) => {
         $(#[$about])*
         #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields)]
@@ -89,6 +89,9 @@ macro_rules! measurements {
             $($(#[$doc])*
             #[serde(default, skip_serializing_if = "Option::is_none")]
             pub $column: Option<Json>,)*
+            $($(#[$told])*
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            pub $flag: Option<bool>,)?
         }
     };
 }
@@ -114,12 +117,14 @@ measurements!(
     }
 );
 measurements!(
-    /// Sliding steadily down a slope without turning.
+    /// Sliding steadily down a slope without turning, or beginning to.
     Slope {
         /// Inclinations of the support (rad).
         angle,
-        /// Speeds (m/s).
-        speed
+        /// Speeds (m/s); none where it begins to slide.
+        speed;
+        /// Whether the angles are those at which it begins to slide, and are what was measured.
+        begins
     }
 );
 measurements!(

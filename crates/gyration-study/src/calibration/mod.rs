@@ -58,6 +58,8 @@ pub enum ExperimentKind {
     Gap,
     /// Put on a slope; the speed was measured.
     Slope,
+    /// Put on a plane that is tilted until it slides; the angle was measured.
+    Begins,
     /// Torn off; the force was measured.
     PullOff,
 }
@@ -123,7 +125,7 @@ impl ExperimentKind {
         match self {
             Self::Drop => "drop",
             Self::Gap => "gap",
-            Self::Slope => "slope",
+            Self::Slope | Self::Begins => "slope",
             Self::PullOff => "pull_off",
         }
     }
@@ -133,7 +135,7 @@ impl ExperimentKind {
         match self {
             Self::Drop => Some(("height", "m")),
             Self::Slope => Some(("angle", "rad")),
-            Self::Gap | Self::PullOff => None,
+            Self::Begins | Self::Gap | Self::PullOff => None,
         }
     }
 
@@ -151,6 +153,7 @@ impl ExperimentKind {
             Self::Drop => ("rebound", "m"),
             Self::Gap => ("gap", "m"),
             Self::Slope => ("speed", "m/s"),
+            Self::Begins => ("angle", "rad"),
             Self::PullOff => ("force", "N"),
         }
     }

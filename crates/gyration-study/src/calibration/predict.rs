@@ -4,12 +4,13 @@
 //! |---|---|
 //! | rebound | h + n·(p₀ − p₀(0)) at the first apex behind the first closest approach, from rest at a gap h |
 //! | gap | of the rest state, where the exact balance has no force left |
-//! | speed on a slope θ | m g sin θ/c: rest state under g cos θ, c the friction per speed there |
+//! | speed on a slope θ | that of which friction is m g sin θ, in the rest state under g cos θ; without a bound m g sin θ/c |
+//! | slope at which it begins to slide | tan θ = F/(m g cos θ), F the most that friction holds in the rest state under g cos θ |
 //! | pull-off | the largest force towards the support over all gaps, in the attitude of the start |
 //!
-//! The laws have no friction at rest: a body slides on every slope, v = (α/β) tan θ where both exponents are the same.
-//! The slope at which "it slides" is that at which it gets as fast as can be seen; so a slope is measured together with
-//! a speed.
+//! Viscous friction holds nothing: a body slides on every slope, v = (α/β) tan θ where both exponents are the same, and a
+//! slope is measured together with a speed. A bound μ on friction lets it begin to slide at tan θ = μ, if nothing but its
+//! weight presses.
 
 use super::rebound::Drop;
 use super::scene::{body, normal};
@@ -53,6 +54,7 @@ impl Calibration {
                 let scene = self.scene(experiment, condition, values, &[])?;
                 speed(&self.tilted(experiment, &scene, condition, values)?, experiment, condition)
             }
+            ExperimentKind::Begins => self.begins(experiment, values),
             ExperimentKind::PullOff => pull_off(&self.scene(experiment, condition, values, &[])?, experiment),
         }
     }
@@ -93,26 +95,115 @@ fn rest_gap(scene: &Scene, experiment: &Experiment) -> Result<f64, String> {
     rest(&built.model, &built.state, index).map(|rest| rest.gap).map_err(|none| none.to_string())
 }
 
-/// The steady speed under the part of gravity along the slope, from the friction per speed in the rest state.
+/// The steady speed under the part of gravity along the slope, from the friction in the rest state.
 fn speed(tilted: &Scene, experiment: &Experiment, slope: f64) -> Result<f64, String> {
-    let built = tilted.built();
-    let (model, index) = (&built.model, body(&built.model, experiment)?);
-    let state = rest(model, &built.state, index).map_err(|none| none.to_string())?;
-    let normal = normal(model, index)?;
-    let level = [Vec3::x(), Vec3::y()].map(|axis| axis - normal * normal.dot(&axis));
-    let along = if level[0].norm() > level[1].norm() { level[0] } else { level[1] }.normalize();
-    let mut still = built.state.clone();
-    still.bodies[model.blocks()[index].clone()].copy_from_slice(state.block());
-    let mut moving = still.clone();
-    let at = velocity(model, index)?;
-    moving.bodies[at..at + 3].copy_from_slice(along.as_slice());
-    let resistance = -(force(model, &moving, index)? - force(model, &still, index)?).dot(&along);
-    let pressing = model.gravity.norm();
-    if resistance > 0.0 {
-        // |g| was multiplied by cos θ.
-        Ok(model.bodies[index].solid.mass.mass * pressing * libm::tan(slope) / resistance)
-    } else {
-        Err(format!("no friction acts on {:?}: on a slope it gets faster for ever", experiment.body))
+    let drag = Drag::of(tilted, experiment)?;
+    let name = &experiment.body;
+    // |g| was multiplied by cos θ.
+    let needed = drag.mass * drag.pressing * libm::tan(slope);
+    let resistance = drag.at(1.0)?;
+    if resistance <= 0.0 {
+        return Err(format!("no friction acts on {name:?}: on a slope it gets faster for ever"));
+    }
+    if !drag.is_bounded {
+        return Ok(needed / resistance);
+    }
+    let (mut low, mut high) = (-FASTEST, FASTEST);
+    if drag.at(libm::exp(high))? <= needed {
+        return Err(format!("the friction of {name:?} is bounded: on this slope it gets faster for ever"));
+    }
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        if drag.at(libm::exp(middle))? < needed { low = middle } else { high = middle }
+    }
+    Ok(libm::exp(0.5 * (low + high)))
+}
+
+/// The logarithm of a speed [m/s] that is far beyond all bounds.
+const FASTEST: f64 = 30.0;
+/// Halvings of that to rounding.
+const BISECTIONS: usize = 70;
+/// More steps than the secant takes, and when it ends.
+const MOST_SECANTS: usize = 50;
+const SECANT_ENDS: f64 = 1e-13;
+
+impl Calibration {
+    /// The slope at which friction holds no more than the weight's part along it.
+    fn begins(&self, experiment: &Experiment, values: &[f64]) -> Result<f64, String> {
+        let scene = self.scene(experiment, 0.0, values, &[])?;
+        let off = |slope: f64| -> Result<f64, String> {
+            let tilted = self.tilted(experiment, &scene, slope, values)?;
+            let drag = Drag::of(&tilted, experiment)?;
+            let most = drag.at(libm::exp(FASTEST))?;
+            if !drag.is_bounded {
+                let name = &experiment.body;
+                return Err(format!("the friction of {name:?} is viscous: it slides on every slope; give it a `mu`"));
+            }
+            Ok(libm::atan(most / (drag.mass * drag.pressing)) - slope)
+        };
+        let mut before = off(0.0)?;
+        let (mut last, mut here) = (0.0, before);
+        for _ in 0..MOST_SECANTS {
+            let now = off(here)?;
+            if now.abs() <= SECANT_ENDS {
+                return Ok(here);
+            }
+            if now == before {
+                break;
+            }
+            let step = now * (here - last) / (before - now);
+            (last, before) = (here, now);
+            here += step;
+        }
+        Err(format!("no slope is found at which {:?} begins to slide", experiment.body))
+    }
+}
+
+/// The friction of a body in its rest state.
+struct Drag<'a> {
+    model: &'a Model,
+    index: usize,
+    /// At rest.
+    still: State,
+    /// Across the normal of its support.
+    along: Vec3,
+    /// Where its velocity stands.
+    at: usize,
+    mass: f64,
+    /// |g| [m/s²].
+    pressing: f64,
+    /// Whether friction of it has a bound.
+    is_bounded: bool,
+}
+
+impl<'a> Drag<'a> {
+    fn of(tilted: &'a Scene, experiment: &Experiment) -> Result<Self, String> {
+        let built = tilted.built();
+        let (model, index) = (&built.model, body(&built.model, experiment)?);
+        let state = rest(model, &built.state, index).map_err(|none| none.to_string())?;
+        let normal = normal(model, index)?;
+        let level = [Vec3::x(), Vec3::y()].map(|axis| axis - normal * normal.dot(&axis));
+        let along = if level[0].norm() > level[1].norm() { level[0] } else { level[1] }.normalize();
+        let mut still = built.state.clone();
+        still.bodies[model.blocks()[index].clone()].copy_from_slice(state.block());
+        Ok(Self {
+            model,
+            index,
+            still,
+            along,
+            at: velocity(model, index)?,
+            mass: model.bodies[index].solid.mass.mass,
+            pressing: model.gravity.norm(),
+            is_bounded: model.contacts_of(index).any(|contact| contact.law_set.mu().is_some()),
+        })
+    }
+
+    /// What holds it back at a speed along its support [N].
+    fn at(&self, speed: f64) -> Result<f64, String> {
+        let Self { model, index, still, along, at, .. } = self;
+        let mut moving = still.clone();
+        moving.bodies[*at..at + 3].copy_from_slice((speed * along).as_slice());
+        Ok(-(force(model, &moving, *index)? - force(model, still, *index)?).dot(along))
     }
 }
 

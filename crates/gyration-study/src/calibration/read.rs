@@ -190,6 +190,7 @@ fn experiment(
     let at = index.to_string();
     let place = [kind.word(), at.as_str()];
     let inside = |word: &'static str| [place[0], place[1], word];
+    let kind = if kind == ExperimentKind::Slope && begins(input, &place)? { ExperimentKind::Begins } else { kind };
     let file = csv(input, &place, base)?;
     let key: Option<String> = input.take(&inside("key"));
     let (condition, unit) =
@@ -257,7 +258,7 @@ fn experiment(
     }
     if let Some(row) = (0..count).find(|row| !is_possible(kind, conditions[*row], measured[*row], deviations[*row])) {
         let message = format!("row {}: {:?} {result_unit} cannot be", row + 1, measured[row]);
-        let help = "write numbers above zero, rebounds not above the height of the drop; numbers are in m, m/s and N, strings have units";
+        let help = "write numbers above zero, rebounds not above the height of the drop, angles below pi/2; numbers are in SI units, strings have their own";
         input.note(&inside(result), message, help);
         return None;
     }
@@ -269,6 +270,18 @@ fn experiment(
     let body = body(input, &place, resolved)?;
     let settings = settings(input, &inside("set"));
     Some(Experiment { kind, index, body, settings, key, conditions, measured, deviations })
+}
+
+/// Whether a slope is one at which a body begins to slide; none if it cannot be.
+fn begins(input: &mut InputFile, place: &[&str; 2]) -> Option<bool> {
+    let inside = |word: &'static str| [place[0], place[1], word];
+    let begins = input.take(&inside("begins")).unwrap_or(false);
+    if begins && input.value(&inside("speed")).is_some() {
+        let message = "where it begins to slide, a body has no speed yet";
+        input.note(&inside("speed"), message, "leave it out: `angle` is what was measured");
+        return None;
+    }
+    Some(begins)
 }
 
 /// The body that is named, or the only one.
