@@ -128,7 +128,11 @@ fn law_series(law: &ContactLaw, of: &str, hue: usize, gaps: &GapRange) -> Vec<Se
         ContactLaw::Adhesion(law) => {
             format!("{kind}{of}: {}, {}", law.attractive_exponent, law.repulsive_exponent)
         }
-        _ => format!("{kind}{of}: ν = {}", law.leading_exponent()),
+        ContactLaw::Repulsion(_) | ContactLaw::Damping(_) | ContactLaw::Friction(_) => {
+            let bound = law.mu().map(|mu| format!(", up to {mu} of the repulsion")).unwrap_or_default();
+            let one_sided = if law.release().is_some() { ", one-sided" } else { "" };
+            format!("{kind}{of}: ν = {}{bound}{one_sided}", law.leading_exponent())
+        }
     };
     let mut series = by_sign(name, points, hue);
     // Friction is often given the numbers of damping: its line must not hide the other.
