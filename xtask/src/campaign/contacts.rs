@@ -89,7 +89,15 @@ pub fn laws(draft: &mut Draft, text: &mut String, rest_gap: f64, repels: bool) {
             // From hardly any loss to a body that sticks in the field.
             let number = draft.stream.decade(-2.0, 1.0);
             let beta = number * pressure / draft.speed() * (rest_gap / d0).powf(nu);
-            let _ = writeln!(text, "{name} = {{ beta = {beta:?}, nu = {nu:?}, d0 = {d0:?} }}");
+            // Both need a repulsion.
+            let beyond = match name {
+                "friction" if repels && draft.stream.chance(0.5) => {
+                    format!(", mu = {:?}", draft.stream.between(0.05, 1.0))
+                }
+                "damping" if repels && draft.stream.chance(0.2) => ", one_sided = true".to_owned(),
+                _ => String::new(),
+            };
+            let _ = writeln!(text, "{name} = {{ beta = {beta:?}, nu = {nu:?}, d0 = {d0:?}{beyond} }}");
         }
     }
 }

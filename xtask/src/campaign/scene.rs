@@ -158,6 +158,8 @@ mod tests {
             "repulsion",
             "damping",
             "friction",
+            "mu = ",
+            "one_sided = true",
             "adhesion",
             "reference_area",
             "deformed_area_potential",
