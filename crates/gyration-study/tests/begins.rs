@@ -1,4 +1,5 @@
-//! The bound on friction from the angle at which a body begins to slide, and its strength from how fast it creeps below.
+//! The bound on friction from the angle at which a body begins to slide, and its strength from how fast it creeps
+//! below.
 
 use gyration_study::calibration::{Calibration, Fitted};
 use std::path::Path;

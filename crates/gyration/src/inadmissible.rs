@@ -63,8 +63,8 @@ pub enum Quantity {
     Contraction,
     /// The resistance to the motion of a body without inertia, which must be > 0.
     Resistance,
-    /// The last step towards the velocities of a body without inertia, as a part of these, which must be small: friction
-    /// with a bound is not linear in them.
+    /// The last step towards the velocities of a body without inertia, as a part of these, which must be small:
+    /// friction with a bound is not linear in them.
     Balance,
     /// The ratio of the longest to the shortest semi-axis of an inclusion, which must be below [`MOST_SLENDER`].
     ///

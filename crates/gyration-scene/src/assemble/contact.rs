@@ -15,8 +15,8 @@ use gyration::neighbours::PairRule;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// w₀ of one-sided damping over α/β: what recedes is held back by a two-hundredth of the speed at which damping would be
-/// as strong as repulsion.
+/// w₀ of one-sided damping over α/β: what recedes is held back by a two-hundredth of the speed at which damping would
+/// be as strong as repulsion.
 const RELEASE: f64 = 0.01;
 
 /// The most contacts of bodies with supports in a scene.

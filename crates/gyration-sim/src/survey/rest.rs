@@ -14,10 +14,9 @@
 //!   v = m |g_t|/c_t,   g_t = g − n (n·g),
 //!
 //! at which friction carries the weight's part along it, or at that of `slip` under a bound on friction; one that is
-//! round along the slope rolls. A body that something
-//! else holds too, a pin, a spring, another support, rests elsewhere: no such gap is then given, but the reason why
-//! not. A body that deforms keeps the P of its start here; where it really rests, deformed by its weight, is its rest
-//! state (`modes`).
+//! round along the slope rolls. A body that something else holds too, a pin, a spring, another support, rests
+//! elsewhere: no such gap is then given, but the reason why not. A body that deforms keeps the P of its start here;
+//! where it really rests, deformed by its weight, is its rest state (`modes`).
 
 use super::balance::TrialGaps;
 use super::slip::Slip;

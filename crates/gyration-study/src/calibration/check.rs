@@ -6,8 +6,8 @@ use gyration_scene::input::InputFile;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
-/// Whether anything could have been measured so: a rebound gives back no more than the drop, within three deviations, and
-/// what slides at all does on a wall.
+/// Whether anything could have been measured so: a rebound gives back no more than the drop, within three deviations,
+/// and what slides at all does on a wall.
 pub(super) fn is_possible(kind: ExperimentKind, condition: f64, measured: f64, deviation: f64) -> bool {
     let most = match kind {
         ExperimentKind::Drop => condition + 3.0 * deviation,

@@ -8,9 +8,9 @@
 //! | slope at which it begins to slide | tan θ = F/(m g cos θ), F the most that friction holds in the rest state under g cos θ |
 //! | pull-off | the largest force towards the support over all gaps, in the attitude of the start |
 //!
-//! Viscous friction holds nothing: a body slides on every slope, v = (α/β) tan θ where both exponents are the same, and a
-//! slope is measured together with a speed. A bound μ on friction lets it begin to slide at tan θ = μ, if nothing but its
-//! weight presses.
+//! Viscous friction holds nothing: a body slides on every slope, v = (α/β) tan θ where both exponents are the same, and
+//! a slope is measured together with a speed. A bound μ on friction lets it begin to slide at tan θ = μ, if nothing but
+//! its weight presses.
 
 use super::rebound::Drop;
 use super::scene::{body, normal};

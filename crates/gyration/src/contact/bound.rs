@@ -3,10 +3,10 @@
 //!   σ = 1/√(1 + s),   s = 2R B/(μN)²
 //!
 //! All frictional tractions are multiplied by σ: 2R [W] is what viscous friction alone would take, B = ∫β (d/d₀)^−ν dA
-//! its resistance to a translation [N s/m], N the resultant of the repulsion, never of an attraction. Sliding at w meets
-//! B w/√(1 + (B w/μN)²), which tends to μN; slow motion meets viscous friction, a creep. A spin and a slip weaken one
-//! another, since the friction is −∂Ψ/∂v of the convex potential Ψ = ((μN)²/B) (√(1 + s) − 1). So it dissipates σ 2R,
-//! and its derivative by the motion is of rank one beside that of viscous friction:
+//! its resistance to a translation [N s/m], N the resultant of the repulsion, never of an attraction. Sliding at w
+//! meets B w/√(1 + (B w/μN)²), which tends to μN; slow motion meets viscous friction, a creep. A spin and a slip weaken
+//! one another, since the friction is −∂Ψ/∂v of the convex potential Ψ = ((μN)²/B) (√(1 + s) − 1). So it dissipates σ
+//! 2R, and its derivative by the motion is of rank one beside that of viscous friction:
 //!
 //!   δσ = −½ σ (g δ(2R) + τ (δB/B − 2 δN/N)),   g = B/((μN)² + 2R B),   τ = s/(1 + s)
 //!   δ(2R) = −2 Q·δv,   Q the viscous friction

@@ -1,5 +1,5 @@
-//! Damping: resists the normal part of the relative velocity; dissipates β (d/d₀)^−ν (n·w)² per unit area, unless it
-//! is one-sided.
+//! Damping: resists the normal part of the relative velocity; dissipates β (d/d₀)^−ν (n·w)² per unit area, unless it is
+//! one-sided.
 
 use super::{Action, LawKind, Term};
 

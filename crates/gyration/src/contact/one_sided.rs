@@ -3,12 +3,11 @@
 //!   s(w) = ½(w + w₀ − √(w² + w₀²)),   0 ≤ s w,   s → w + ½w₀ as w → −∞,   s → ½w₀ as w → ∞
 //!
 //! takes the place of the mean speed w with which a body recedes from a plane, weighed by β (d/d₀)^−ν. That is the
-//! speed whose product with B = ∫β (d/d₀)^−ν dA is the force of damping: what tilts without receding is damped as
-//! ever, on the side that rises as on the side that sinks. So all of damping is that of the motion with s − w added
-//! along n, and minus the derivative of the convex R + B(∫s dw − ½w²), R the half of what two-sided damping takes: the
-//! power is −(2R − B w² + B s w) ≤ 0. Between bodies n is the normal of their plane, w the speed of one that recedes
-//! from the other, and B the force at w = 1 with the mediator in balance (`pair/mediator`). Source:
-//! `docs/theory-rigid.md`.
+//! speed whose product with B = ∫β (d/d₀)^−ν dA is the force of damping: what tilts without receding is damped as ever,
+//! on the side that rises as on the side that sinks. So all of damping is that of the motion with s − w added along n,
+//! and minus the derivative of the convex R + B(∫s dw − ½w²), R the half of what two-sided damping takes: the power is
+//! −(2R − B w² + B s w) ≤ 0. Between bodies n is the normal of their plane, w the speed of one that recedes from the
+//! other, and B the force at w = 1 with the mediator in balance (`pair/mediator`). Source: `docs/theory-rigid.md`.
 
 /// w₀ of a damping that is one-sided [m/s].
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,10 +6,10 @@
 //!
 //!   ∂Q/∂q = (∂Q by gap) ⊗ n + …,   ∂Q_ia/∂q̇_jb = −n_i n_j ∫κ_N X̃_a X̃_b dA − (δ_ij − n_i n_j) ∫κ_T X̃_a X̃_b dA
 //!
-//! with κ_N, κ_T of damping and friction. Under Coulomb's bound κ_T is σ κ, and the derivatives are those of its product
-//! with the viscous friction Q_T: Q_T ⊗ ∂σ beside, by the motion σ g Q_T ⊗ Q_T (`bound`). One-sided damping is that of
-//! the motion with s − w added along n: Q_N ⊗ ∂(s − w) beside, Q_N the damping of a motion with n alone, by the motion
-//! −(s′ − 1)/B Q_N ⊗ Q_N (`one_sided`).
+//! with κ_N, κ_T of damping and friction. Under Coulomb's bound κ_T is σ κ, and the derivatives are those of its
+//! product with the viscous friction Q_T: Q_T ⊗ ∂σ beside, by the motion σ g Q_T ⊗ Q_T (`bound`). One-sided damping is
+//! that of the motion with s − w added along n: Q_N ⊗ ∂(s − w) beside, Q_N the damping of a motion with n alone, by the
+//! motion −(s′ − 1)/B Q_N ⊗ Q_N (`one_sided`).
 
 use super::law_set::{ContactScratch, LawSet};
 use super::meeting::{Meeting, RelativeMotion};

@@ -284,8 +284,8 @@ impl ContactWrench {
         self.by_spin += along(&center.cross(direction));
     }
 
-    /// Adds what the factor of a bound changes by with the motion and a turn, given the viscous friction and how what it
-    /// takes changes with a turn, the moments being kept [W].
+    /// Adds what the factor of a bound changes by with the motion and a turn, given the viscous friction and how what
+    /// it takes changes with a turn, the moments being kept [W].
     pub(super) fn add_bound(&mut self, bound: &Bound, friction: &Wrench, by_turn: &Vec3) {
         let by_turn = by_turn.map(|lost| bound.change(&Sliding { lost, resistance: 0.0, push: 0.0 }));
         let along = |by: &Vec3| WrenchSlope {

@@ -14,8 +14,8 @@
 //!
 //!   Σ_l ⟨B_k, B_l⟩ η_l = ⟨B_k, ΠV⟩,   (f | M) = −W M,   W = ΠV − Σ η_k B_k,   power = −⟨W, W⟩
 //!
-//! Coulomb's bound scales all of a friction by σ, with 2R = ⟨W, W⟩ and B = B_A B_B/(B_A + B_B), B_i = ∫κ_i dA: both sides
-//! alike, so that the mediator stays as it is (`contact/bound`).
+//! Coulomb's bound scales all of a friction by σ, with 2R = ⟨W, W⟩ and B = B_A B_B/(B_A + B_B), B_i = ∫κ_i dA: both
+//! sides alike, so that the mediator stays as it is (`contact/bound`).
 
 use super::fault::PairFault;
 use super::laws::{PairLaws, ViscousLaw, raised};

@@ -3,8 +3,8 @@
 //!
 //!   (f | M) = −W M − (s − w) W_E M,   power = −(⟨W, W⟩ + (s − w) K w)
 //!
-//! Derivatives have −(s′ − 1)/K Q_E⊗Q_E beside those of viscous damping by the motion, Q_E = −W_E M, and (s′ − 1) Q_E δw
-//! by the places, in which the change of W, W_E is that at η kept:
+//! Derivatives have −(s′ − 1)/K Q_E⊗Q_E beside those of viscous damping by the motion, Q_E = −W_E M, and (s′ − 1) Q_E
+//! δw by the places, in which the change of W, W_E is that at η kept:
 //!
 //!   δw = (δ⟨W_E, W⟩ − w δK)/K
 
@@ -83,7 +83,8 @@ impl Mediator {
         -(opening.slips[side] * self.moments[side])
     }
 
-    /// What the change of one side adds to K δw; the slips that change being those of the mediator, (s − w) δK is in it.
+    /// What the change of one side adds to K δw; the slips that change being those of the mediator, (s − w) δK is in
+    /// it.
     pub(super) fn mean_along(&self, opening: &Opening, change: &SideChange) -> f64 {
         let SideChange { side, slip, tilted, moments } = change;
         let (own, weight) = (&opening.slips[*side], &self.moments[*side]);

@@ -59,7 +59,8 @@ fn slopes_agree_with_differences() {
         for body in 0..2 {
             let apart = off(&numbers(&slopes.loads.on[body]), &numbers(&at.on[body]));
             println!("{name}: loads with derivatives are apart by {apart:.1e}");
-            // Both planes are those of least potential to rounding, whose slopes the loads of motions feel in first order.
+            // Both planes are those of least potential to rounding, whose slopes the loads of motions feel in first
+            // order.
             assert!(apart < 1e-11, "{name}: {apart:e}");
         }
         let step = 1e-4 * at.gap;

@@ -32,8 +32,8 @@ fn columns(wrench: &Wrench) -> [Mat3; 2] {
     [wrench.force, wrench.torque].map(|vector| Mat3::from_columns(&[vector, Vec3::zeros(), Vec3::zeros()]))
 }
 
-/// The general method has a torque and derivatives that are differences of central and normal moments: it knows
-/// them to the rounding of R f, R ∂f/∂g₀ and R ∂f/∂w₀.
+/// The general method has a torque and derivatives that are differences of central and normal moments: it knows them to
+/// the rounding of R f, R ∂f/∂g₀ and R ∂f/∂w₀.
 #[test]
 fn ball_is_what_its_surface_is() {
     let surface = Surface::sphere(RADIUS);

@@ -2,12 +2,13 @@
 //!
 //!   A_i(q, v, G) = λ_i Y_i,   tr(Ṗ_i P_i⁻¹) = θ_i,      q̇ = B(q) v,   Ġ = V_G G
 //!
-//! A are the accelerations that a body with inertia would have, which vanish when the loads do. Where they are linear in
-//! the velocities v, one solution with the matrix of the exact Jacobian gives these; else it begins Newton's method. Where the pressure of an incompressible body keeps det
-//! P, A is known but for a multiple λ of Y = P⁻ᵀJ⁻¹, and the growth θ of its volume takes the place of that equation
-//! (zero, or that of a contraction that is prescribed). Bodies that feel one another's velocities, through dashpots or
-//! through damping and friction where they meet, are balanced together. Masses only weigh the equations: nothing
-//! depends on them but the weight of the body. Source: `docs/theory-fluid.md`.
+//! A are the accelerations that a body with inertia would have, which vanish when the loads do. Where they are linear
+//! in the velocities v, one solution with the matrix of the exact Jacobian gives these; else it begins Newton's method.
+//! Where the pressure of an incompressible body keeps det P, A is known but for a multiple λ of Y = P⁻ᵀJ⁻¹, and the
+//! growth θ of its volume takes the place of that equation (zero, or that of a contraction that is prescribed). Bodies
+//! that feel one another's velocities, through dashpots or through damping and friction where they meet, are balanced
+//! together. Masses only weigh the equations: nothing depends on them but the weight of the body. Source:
+//! `docs/theory-fluid.md`.
 //!
 //! | file      | what                                                              |
 //! |-----------|-------------------------------------------------------------------|

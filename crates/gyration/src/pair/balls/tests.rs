@@ -173,8 +173,8 @@ fn slopes_are_those_of_the_general_method() {
     assert!(worst < 1e-11);
 }
 
-/// Damping, friction or both, of exponents of their own; friction viscous, and with bounds that it meets and
-/// exceeds; damping one-sided.
+/// Damping, friction or both, of exponents of their own; friction viscous, and with bounds that it meets and exceeds;
+/// damping one-sided.
 fn resistances(exponents: [f64; 2]) -> [Vec<ContactLaw>; 6] {
     let [one, other] = exponents;
     let damping = |release| ContactLaw::Damping(Damping { beta: 5e4, exponent: one, reference_gap: 0.01, release });

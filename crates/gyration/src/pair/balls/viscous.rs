@@ -9,8 +9,8 @@
 //!   f_A = −D₀ (n·v) n − F₀u = −f_B,   τ_i = h_i F₀ n×u − σ_i (D_⊥ Πω + k (n·ω) n)
 //!   power of damping −D₀ (n·v)² − D_⊥ |Πω|²,   of friction −F₀u² − k (n·ω)²
 //!
-//! Torques are about the centres, M = ½ [τ]× P. Coulomb's bound scales F₀ and k (`bound`); one-sided damping
-//! has s(n·v) in the place of n·v in f.
+//! Torques are about the centres, M = ½ [τ]× P. Coulomb's bound scales F₀ and k (`bound`); one-sided damping has s(n·v)
+//! in the place of n·v in f.
 
 use super::bound::BoundedSlip;
 use super::moving::{Moving, Resistance, Shifted, column};
