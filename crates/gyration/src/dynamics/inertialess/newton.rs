@@ -29,11 +29,13 @@ impl Group {
                     Load::Pair(pair) => !pair.acts() || pair.end.interaction.form.laws.is_linear(),
                     Load::Spring(_)
                     | Load::Bond(_)
+                    | Load::Joint(_)
                     | Load::Couple(_)
                     | Load::Applied(_)
                     | Load::Resistance(_)
                     | Load::Potential(_)
                     | Load::BodyForce(_)
+                    | Load::PointForce(_)
                     | Load::OwnFriction(_)
                     | Load::MassFriction(_)
                     | Load::Fluid(..) => true,
