@@ -157,7 +157,7 @@ fn joint_errors(run: &gyration_validation::Run, ends: [(&str, f64); 2]) -> f64 {
 fn chain(count: usize, inclination: f64, end: f64) -> Experiment {
     let (length, mass) = (0.1, 0.1);
     let (sin, cos) = inclination.sin_cos();
-    let mut scene = format!("time = {{ end = {end}, sample = 0.1 }}\n");
+    let mut scene = format!("time = {{ end = {end}, sample = 0.1 }}\nsolver = {{ method = \"explicit\" }}\n");
     for k in 0..count {
         let middle = length * (k as f64 + 0.5);
         scene += &format!(

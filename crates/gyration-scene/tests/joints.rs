@@ -18,7 +18,7 @@ fn joint(lines: &str) -> String {
 #[test]
 fn what_cannot_be_joined_is_refused_with_the_fix() {
     let rows = [
-        ("between = [\"a\", §\"c\"]\nkind = \"ball\"", "between.1", "no body \"c\"", "\"a\""),
+        ("between = [\"a\", §\"c\"]\nkind = \"ball\"", "between.1", "no body \"c\"", "a, b, space"),
         ("between = [\"a\", §\"a\"]\nkind = \"ball\"", "between.1", "closes nothing", "two different"),
         ("between = [\"space\", §\"space\"]\nkind = \"ball\"", "between.1", "closes nothing", "name a body"),
         ("between = [\"a\", \"b\"]\nkind = §\"rope\"", "kind", "rope", "ball"),

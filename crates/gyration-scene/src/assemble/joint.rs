@@ -196,8 +196,8 @@ impl Written<'_> {
         [seen(one, frame), seen(other, frame * turned_about_axis(angle))]
     }
 
-    /// The part of the turn from the first to the second that is about an axis of the first \[rad\]; zero of bodies that
-    /// deform.
+    /// The part of the turn from the first to the second that is about an axis of the first \[rad\]; zero of bodies
+    /// that deform.
     fn angle(&self, axis: &Vec3) -> f64 {
         let [Some(one), Some(other)] = [0, 1].map(|end| self.ends[end].orientation()) else { return 0.0 };
         let [w, x, y, z] = one.normalized().0;

@@ -1,7 +1,7 @@
 //! Joints, well formed or not, that name a body that is not there, a support, or nothing that moves.
 
 use super::Reporter;
-use super::values::Named;
+use super::named::Named;
 use crate::key::Key;
 use crate::suggest;
 use crate::tree::Node;

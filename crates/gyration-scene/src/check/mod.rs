@@ -5,6 +5,7 @@
 //! `values` and to `assemble`, so that a misspelt key in one body does not hide a missing support of another.
 
 mod joints;
+mod named;
 mod partial;
 mod rule;
 mod structure;

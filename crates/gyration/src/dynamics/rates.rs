@@ -6,9 +6,10 @@
 //!   I Ω̇ = τ − Ω × IΩ                      τ = ∫_∂D X × Rᵀq dA          (rigid, body axes)
 //!
 //! instant → loads → balance solved for the rates, body by body, and the powers whose integrals are the works of the
-//! ledger. Joints exert the forces that keep their bodies together (`joints`). A body without inertia takes the velocities at which all of this is in balance (`inertialess`). A pinned
-//! body takes everything about its pin, r = X_p − X₀: τ_p = τ − r × Rᵀ(f + m g), M_p = M − (f + m g) ⊗ r. Source:
-//! `docs/theory-rigid.md`, `docs/theory-affine.md`, `docs/theory-contractile.md`.
+//! ledger. Joints exert the forces that keep their bodies together (`joints`). A body without inertia takes the
+//! velocities at which all of this is in balance (`inertialess`). A pinned body takes everything about its pin, r = X_p
+//! − X₀: τ_p = τ − r × Rᵀ(f + m g), M_p = M − (f + m g) ⊗ r. Source: `docs/theory-rigid.md`, `docs/theory-affine.md`,
+//! `docs/theory-contractile.md`.
 
 use super::body_rates::body_rates;
 use super::jacobian::{Blocks, add_interactions, body_jacobian};

@@ -239,6 +239,11 @@ impl Instant<'_> {
         self.between.joint(number)
     }
 
+    /// Whether derivatives were asked for.
+    pub(crate) fn has_slopes(&self) -> bool {
+        self.wanted == Wanted::Slopes
+    }
+
     /// How the bodies move.
     pub(crate) fn motions(&self) -> &Motions {
         self.motions

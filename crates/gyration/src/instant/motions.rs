@@ -371,7 +371,7 @@ impl<'a> MotionAt<'a> {
     }
 
     /// The place of a point of space from its centre of mass [m], to all the digits of the state.
-    pub(crate) fn to_place(&self, place: &Vec3) -> Vec3 {
+    pub(crate) fn place_from_center(&self, place: &Vec3) -> Vec3 {
         if self.body.pin.is_some() {
             return place - self.motion.placement.position;
         }

@@ -9,8 +9,8 @@
 //! | distance | the points stay at a distance (1)                                                    |
 //!
 //! (a, b, c) is a frame of each body, a the axis; both are one at the angle zero. `row` has one equation and its
-//! derivatives, `graph` who hangs together through joints, `dynamics/joints` has the forces that keep them. A joint knows no body: its forces are G_i λ, and do no
-//! work. Source: `docs/theory-rigid.md`.
+//! derivatives, `graph` who hangs together through joints, `dynamics/joints` has the forces that keep them. A joint
+//! knows no body: its forces are G_i λ, and do no work. Source: `docs/theory-rigid.md`.
 
 mod graph;
 mod row;

@@ -2,8 +2,8 @@
 //!
 //!   (G A B Gᵀ) μ = −C,  δ = B Gᵀμ;   (G A B Gᵀ) ν = −Ċ,  δv = B Gᵀν
 //!
-//! δ is a displacement of (position, attitude) as v is their velocity: a quaternion becomes q ∘ (1, ½δθ). Places are put
-//! back by Newton's method, to all digits that their numbers have.
+//! δ is a displacement of (position, attitude) as v is their velocity: a quaternion becomes q ∘ (1, ½δθ). Places are
+//! put back by Newton's method, to all digits that their numbers have.
 
 use super::super::Workspace;
 use super::{JointEquations, Vec12, apart, jets};
@@ -71,7 +71,7 @@ impl Workspace {
     pub fn joint_misfits(&mut self, model: &Model, state: &State) -> Result<Vec<JointMisfit>, Inadmissible> {
         let Self { instants, scratch } = self;
         let motions = instants.motions(model, state.time, state.numbers())?;
-        scratch.joints.read(model, |body| motions.at(model, body));
+        scratch.joints.read(model, |body| motions.at(model, body), false);
         let Some(graph) = model.joint_graph() else { return Ok(Vec::new()) };
         let misfit = |joint: &crate::joint::Joint| {
             let apart = apart(joint, |body| motions.at(model, body));
@@ -95,7 +95,7 @@ impl JointEquations {
         rounding: impl Fn(&Row, &[Jet; 2]) -> f64,
     ) -> Result<(f64, bool), Inadmissible> {
         let motions = instants.motions(model, held.time, Numbers { high: held.high, low: held.low })?;
-        self.read(model, |body| motions.at(model, body));
+        self.read(model, |body| motions.at(model, body), false);
         self.fill_side(model, |body| motions.at(model, body), |row, jets| -value(row, jets));
         let size = self.side.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let Some(graph) = model.joint_graph() else { return Ok((0.0, false)) };

@@ -95,7 +95,7 @@ fn apart<'a>(joint: &Joint, at: impl Fn(usize) -> MotionAt<'a>) -> Matrix3x4<f64
     let [one, other] = joint.parties().map(|party| party.body().map(&at));
     let mut apart = Matrix3x4::zeros();
     if let Some(one) = one {
-        let place = other.map_or_else(|| one.to_place(&joint.anchor), |other| other.from(&one));
+        let place = other.map_or_else(|| one.place_from_center(&joint.anchor), |other| other.from(&one));
         apart.set_column(0, &place);
     }
     apart
@@ -104,7 +104,7 @@ fn apart<'a>(joint: &Joint, at: impl Fn(usize) -> MotionAt<'a>) -> Matrix3x4<f64
 impl JointEquations {
     fn solve(&mut self, instant: &mut Instant, scratch: &mut Scratch) -> Result<(), Inadmissible> {
         let model = instant.model();
-        self.read(model, |body| instant.motions().at(model, body));
+        self.read(model, |body| instant.motions().at(model, body), instant.has_slopes());
         let mut rates = scratch.take_numbers(model.dimension());
         for member in &mut self.members {
             let slots = model.slots(member.index);
@@ -128,11 +128,11 @@ impl JointEquations {
     }
 
     /// Reads bodies and equations; velocities are taken not to change.
-    fn read<'a>(&mut self, model: &'a Model, at: impl Fn(usize) -> MotionAt<'a>) {
+    fn read<'a>(&mut self, model: &'a Model, at: impl Fn(usize) -> MotionAt<'a>, wants_slopes: bool) {
         self.prepare(model);
         let Self { room: Some(Room { graph, .. }), members, rows, side, .. } = self else { return };
         members.clear();
-        members.extend(graph.bodies.iter().map(|body| Member::of(&at(*body))));
+        members.extend(graph.bodies.iter().map(|body| Member::of(&at(*body), wants_slopes)));
         rows.clear();
         for joint in model.joints() {
             let jets = jets(joint, members, graph, apart(joint, &at));
@@ -141,9 +141,7 @@ impl JointEquations {
                 let mut own = RowAt { pull: [Vec12::zeros(); 2], response: [Vec12::zeros(); 2] };
                 for end in 0..2 {
                     let Some(place) = of(end) else { continue };
-                    let gradient = Vec12::from_column_slice(row.gradient(&jets, end).as_slice());
-                    own.pull[end] = members[place].lift.lowered(&gradient);
-                    own.response[end] = members[place].lower.rates(&gradient);
+                    [own.pull[end], own.response[end]] = members[place].pull_and_response(&row.gradient(&jets, end));
                 }
                 own
             }));

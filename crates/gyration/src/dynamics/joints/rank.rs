@@ -28,7 +28,7 @@ impl Workspace {
         let Self { instants, scratch } = self;
         let motions = instants.motions(model, state.time, state.numbers())?;
         let mut equations = std::mem::take(&mut scratch.joints);
-        equations.read(model, |body| motions.at(model, body));
+        equations.read(model, |body| motions.at(model, body), false);
         let found = equations.dependent();
         scratch.joints = equations;
         Ok(found)

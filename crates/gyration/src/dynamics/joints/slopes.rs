@@ -2,9 +2,9 @@
 //!
 //!   (G A B Gᵀ) δλ = −(G A δv̇ + δC̈),   δv̇ + B Gᵀδλ
 //!
-//! δv̇ is the change at λ as it is, which the blocks have already, those of what joints do among them; δC̈ that of q, q̇
-//! and q̈ with the numbers of a body at its rates as they are. Every body of a linkage feels every other, and whatever
-//! acts on one of them.
+//! δv̇ is the change at λ as it is, which the blocks have already, those of what joints do among them; δC̈ that of q,
+//! q̇ and q̈ with the numbers of a body at its rates as they are. Every body of a linkage feels every other, and
+//! whatever acts on one of them.
 
 use super::super::Scratch;
 use super::super::jacobian::Blocks;
