@@ -127,7 +127,7 @@ impl Written<'_> {
         let label = (value.name.as_str(), kind);
         let joint = match one {
             Party::Body(_) => Joint::new(label, [one, other], points, [first, second], length),
-            Party::Support(_) | Party::Space => {
+            Party::Support(_) | Party::SolidSupport(_) | Party::Space => {
                 Joint::new(label, [other, one], [points[1], points[0]], [second, first], length).reversed()
             }
         };
