@@ -2,8 +2,8 @@
 //!
 //! A support is what a body of infinite mass is. One that moves with velocity u turns v into 2u − v without loss, and
 //! has then given 2mu(u − v). A ball that slides down a fixed ball from rest at θ₀ presses with mg (3 cosθ − 2 cosθ₀),
-//! and leaves it where that ends. One that rests on a support that moves by A sin Ωt follows it with A/(1 − Ω²/ω²),
-//! ω² = (ν − 1) g/gap. A ball that rolls on a turntable goes round at 2/7 of its rate, whatever its circle.
+//! and leaves it where that ends. One that rests on a support that moves by A sin Ωt follows it with A/(1 − Ω²/ω²), ω²
+//! = (ν − 1) g/gap. A ball that rolls on a turntable goes round at 2/7 of its rate, whatever its circle.
 
 use gyration_validation::{Case, Experiment, Run, largest};
 use std::f64::consts::PI;

@@ -1,5 +1,5 @@
-//! Bodies of every kind at supports with a shape that move and turn: derivatives, powers, and what two bodies do to each
-//! other.
+//! Bodies of every kind at supports with a shape that move and turn: derivatives, powers, and what two bodies do to
+//! each other.
 
 use crate::between::{assert_blocks_are_derivatives, bodies_of, state_at};
 use crate::moving::*;

@@ -142,8 +142,8 @@ impl RigidSlopes {
         self.by_spin += contact.by_spin;
     }
 
-    /// Adds how the motion relative to a support that turns at ω changes with place and turn: δw₀ = −ω × δp₀,
-    /// δ(Ω − Rᵀω) = −Rᵀω × δθ.
+    /// Adds how the motion relative to a support that turns at ω changes with place and turn: δw₀ = −ω × δp₀, δ(Ω −
+    /// Rᵀω) = −Rᵀω × δθ.
     fn carry(&mut self, contact: &ContactWrench, spin: &Vec3, rotation: &Mat3) {
         self.by_place += contact.by_velocity.times(&-cross_matrix(spin));
         self.by_turn += contact.by_spin.times(&-cross_matrix(&rotation.tr_mul(spin)));
