@@ -44,7 +44,7 @@ fn masses(rest: &str) -> String {
 
 #[test]
 fn masses_kept_to_their_line_have_one_branch_and_run_by_it() {
-    let case = Case { row: None, name: "chain of masses kept to its line", source: "ω = 2√(k/m) |sin(q/2)|" };
+    let case = Case { row: None, name: "chain of masses kept to its line", source: "ω² = 4 (k/m) sin²(q/2)" };
     let chain = waves(&masses("repeat = [1, 1, 1]"));
     for (quantity, kappa) in [("ω at κ = 0.1 [rad/s]", 0.1), ("ω at κ = 0.5 [rad/s]", 0.5)] {
         let found = frequencies(&chain, kappa);
