@@ -41,7 +41,7 @@ pub struct LawSurvey {
 
 impl LawSurvey {
     /// The verdicts on laws that act together, for a shape.
-    pub fn all<'a>(laws: &'a [ContactLaw], shape: &Shape) -> Vec<Self> {
+    pub fn all(laws: &[ContactLaw], shape: &Shape) -> Vec<Self> {
         laws.iter().map(|law| Self { strength: strength(law, laws), ..Self::of(law, shape) }).collect()
     }
 
