@@ -238,6 +238,31 @@ impl Mediator {
         Ok(found)
     }
 
+    /// Makes it that of a one-sided damping.
+    pub(super) fn open(&mut self, one_sided: OneSided, normal: &Vec3) {
+        let moved = [uniform(normal), Mat34::zeros()];
+        let (motion, slips) = slipped(&self.system, &self.pressed, &self.fields, moved);
+        let product = |other: &[Mat34; 2]| -> f64 {
+            (0..2).map(|side| (slips[side] * self.moments[side]).dot(&other[side])).sum()
+        };
+        let resistance = product(&slips);
+        if resistance <= 0.0 {
+            return;
+        }
+        let speed = product(&self.slips) / resistance;
+        let shift = one_sided.shift(speed);
+        for (slip, opening) in self.slips.iter_mut().zip(&slips) {
+            *slip += shift.by * opening;
+        }
+        self.motion += shift.by * motion;
+        self.opening = Some(Opening { shift, speed, resistance, slips, motion });
+    }
+
+    /// Q_E on a side.
+    pub(super) fn opening_loads(&self, opening: &Opening, side: usize) -> Mat34 {
+        -(opening.slips[side] * self.moments[side])
+    }
+
     /// (f | M) on a side.
     pub fn loads(&self, side: usize) -> Mat34 {
         let viscous = self.viscous(side);

@@ -14,7 +14,7 @@
 use super::expansion::Change;
 use super::laws::ViscousLaw;
 use super::mediator::{Mediator, Shares, along, combined, from_foot, uniform, upright};
-use super::opening::SideChange;
+use super::opening::{Opening, SideChange};
 use super::side::joined;
 use super::state::PairState;
 use super::{Mat4, Mat34, Vec4};
@@ -149,5 +149,22 @@ impl Mediator {
         let image = |heights: &Vec4| foot.image(&(slope.value * heights)).transpose();
         let cross = upright(&turned) * image(&foot.heights) + foot.across * image(&(half.sign * heights));
         foot.carried(&changed) - cross - cross.transpose()
+    }
+}
+
+impl Mediator {
+    /// What the change of one side adds to K δw; the slips that change being those of the mediator, (s − w) δK is in
+    /// it.
+    pub(super) fn mean_along(&self, opening: &Opening, change: &SideChange) -> f64 {
+        let SideChange { side, slip, tilted, moments } = change;
+        let (own, weight) = (&opening.slips[*side], &self.moments[*side]);
+        let (swept, pressed, turned) = (own * *moments, own * weight, *tilted * weight);
+        let product = turned.dot(&self.slips[*side]) + pressed.dot(slip) + swept.dot(&self.slips[*side]);
+        product - (opening.speed + opening.shift.by) * (2.0 * turned.dot(own) + swept.dot(own))
+    }
+
+    /// (s′ − 1) Q_E δw on a side, given K δw.
+    pub(super) fn opened(&self, opening: &Opening, side: usize, mean: f64) -> Mat34 {
+        opening.shift.slope * mean / opening.resistance * self.opening_loads(opening, side)
     }
 }

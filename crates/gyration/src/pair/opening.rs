@@ -9,22 +9,21 @@
 //!   δw = (δ⟨W_E, W⟩ − w δK)/K
 
 use super::Mat34;
-use super::mediator::{Mediator, slipped, uniform};
-use crate::contact::{OneSided, Shift};
+use crate::contact::Shift;
 use crate::tensor::Vec3;
 
 /// One-sided damping; the slips of the mediator are W + (s − w) W_E.
 #[derive(Debug, Clone)]
 pub(super) struct Opening {
-    shift: Shift,
+    pub shift: Shift,
     /// w [m/s].
-    speed: f64,
+    pub speed: f64,
     /// K [N s/m].
-    resistance: f64,
+    pub resistance: f64,
     /// W_E.
-    slips: [Mat34; 2],
+    pub slips: [Mat34; 2],
     /// η of E.
-    motion: Vec3,
+    pub motion: Vec3,
 }
 
 /// How a side of a mediator changes: δ(ΠV) − Σ η_k δB_k of W + (s − w) W_E, δB and δM.
@@ -54,47 +53,5 @@ impl Opening {
     /// s − w, with which E is in the motion that is damped [m/s].
     pub fn by(&self) -> f64 {
         self.shift.by
-    }
-}
-
-impl Mediator {
-    /// Makes it that of a one-sided damping.
-    pub(super) fn open(&mut self, one_sided: OneSided, normal: &Vec3) {
-        let moved = [uniform(normal), Mat34::zeros()];
-        let (motion, slips) = slipped(&self.system, &self.pressed, &self.fields, moved);
-        let product = |other: &[Mat34; 2]| -> f64 {
-            (0..2).map(|side| (slips[side] * self.moments[side]).dot(&other[side])).sum()
-        };
-        let resistance = product(&slips);
-        if resistance <= 0.0 {
-            return;
-        }
-        let speed = product(&self.slips) / resistance;
-        let shift = one_sided.shift(speed);
-        for (slip, opening) in self.slips.iter_mut().zip(&slips) {
-            *slip += shift.by * opening;
-        }
-        self.motion += shift.by * motion;
-        self.opening = Some(Opening { shift, speed, resistance, slips, motion });
-    }
-
-    /// Q_E on a side.
-    pub(super) fn opening_loads(&self, opening: &Opening, side: usize) -> Mat34 {
-        -(opening.slips[side] * self.moments[side])
-    }
-
-    /// What the change of one side adds to K δw; the slips that change being those of the mediator, (s − w) δK is in
-    /// it.
-    pub(super) fn mean_along(&self, opening: &Opening, change: &SideChange) -> f64 {
-        let SideChange { side, slip, tilted, moments } = change;
-        let (own, weight) = (&opening.slips[*side], &self.moments[*side]);
-        let (swept, pressed, turned) = (own * *moments, own * weight, *tilted * weight);
-        let product = turned.dot(&self.slips[*side]) + pressed.dot(slip) + swept.dot(&self.slips[*side]);
-        product - (opening.speed + opening.shift.by) * (2.0 * turned.dot(own) + swept.dot(own))
-    }
-
-    /// (s′ − 1) Q_E δw on a side, given K δw.
-    pub(super) fn opened(&self, opening: &Opening, side: usize, mean: f64) -> Mat34 {
-        opening.shift.slope * mean / opening.resistance * self.opening_loads(opening, side)
     }
 }

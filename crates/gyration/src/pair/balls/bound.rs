@@ -1,8 +1,7 @@
 //! Coulomb's bound on the friction of two balls (`contact/bound`), of which 2R = F₀u² + k (n·ω)² and B = F₀.
 
 use super::PlacedBalls;
-use super::moving::{Moving, Resistance, Shifted, column};
-use super::viscous::spin_by_rate;
+use super::moving::{Moving, Resistance, Shifted, column, spin_by_rate};
 use crate::contact::{Bound, Sliding};
 use crate::load::numbers;
 use crate::pair::exchange::PairSlopes;

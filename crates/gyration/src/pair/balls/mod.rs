@@ -20,6 +20,7 @@ pub(super) use placed::PlacedBalls;
 
 use super::fault::PairFault;
 use super::laws::{PairLaws, raised, shares};
+use super::placed::Switch;
 use super::side::Side;
 use std::f64::consts::PI;
 
@@ -71,6 +72,15 @@ struct Stiffness {
     levers_by_gap: [f64; 2],
     /// da/dg of each.
     shares: [f64; 2],
+}
+
+/// The repulsion of two balls, as it presses and as that changes with the slab.
+struct Pressed<'a> {
+    repelled: &'a Repelled,
+    switch: &'a Switch,
+    /// N [N] and dN/dg [N/m].
+    push: [f64; 2],
+    stiffness: &'a Stiffness,
 }
 
 /// A step of log a_A/a_B behind which the next is rounding, Newton's method being of second order.

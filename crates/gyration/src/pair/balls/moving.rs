@@ -5,6 +5,9 @@ use crate::contact::{LawKind, OneSided, Shift};
 use crate::load::Loads;
 use crate::pair::side::{SIGNS, Side};
 use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
+use nalgebra::SMatrix;
+
+type Mat3x9 = SMatrix<f64, 3, 9>;
 
 /// What two balls resist one another by, or its change with the slab.
 #[derive(Debug, Clone, Copy, Default)]
@@ -125,4 +128,13 @@ impl Moving {
 /// (f | M), given f and τ.
 pub(super) fn column(force: &Vec3, torque: &Vec3, gradient: &Mat3) -> Loads {
     Loads { force: *force, moment: 0.5 * cross_matrix(torque) * gradient }
+}
+
+/// ω by the columns of Ṗ: ω = ½ Σ P e_k × Ṗ e_k.
+pub(super) fn spin_by_rate(gradient: &Mat3) -> Mat3x9 {
+    let mut spin = Mat3x9::zeros();
+    for k in 0..3 {
+        spin.fixed_columns_mut::<3>(3 * k).copy_from(&(0.5 * cross_matrix(&gradient.column(k).into())));
+    }
+    spin
 }

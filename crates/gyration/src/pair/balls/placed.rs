@@ -1,7 +1,6 @@
 //! Two balls whose plane is found: the slab between them, what they do to each other, and its derivatives.
 
-use super::viscous::Pressed;
-use super::{Balls, Repelled, Stiffness};
+use super::{Balls, Pressed, Repelled, Stiffness};
 use crate::contact::LawKind;
 use crate::kinematics::Velocity;
 use crate::load::{Loads, numbers};

@@ -13,8 +13,8 @@
 //! in the place of n·v in f.
 
 use super::bound::BoundedSlip;
-use super::moving::{Moving, Resistance, Shifted, column};
-use super::{Balls, PlacedBalls, Repelled, Stiffness};
+use super::moving::{Moving, Resistance, Shifted, column, spin_by_rate};
+use super::{Balls, PlacedBalls, Pressed, Repelled, Stiffness};
 use crate::contact::LawKind;
 use crate::pair::exchange::{PairLoads, PairSlopes};
 use crate::pair::laws::{PairLaws, ViscousLaw};
@@ -27,7 +27,6 @@ use crate::tensor::{Mat3, cross_matrix};
 use nalgebra::SMatrix;
 
 type Mat12x3 = SMatrix<f64, 12, 3>;
-type Mat3x9 = SMatrix<f64, 3, 9>;
 
 /// How much a side resists, and how that changes with the slab.
 #[derive(Clone, Copy)]
@@ -55,24 +54,6 @@ fn columns(force: &Mat3, torque: &Mat3, gradient: &Mat3) -> Mat12x3 {
         columns.fixed_view_mut::<9, 1>(3, k).copy_from_slice(moment.as_slice());
     }
     columns
-}
-
-/// ω by the columns of Ṗ: ω = ½ Σ P e_k × Ṗ e_k.
-pub(super) fn spin_by_rate(gradient: &Mat3) -> Mat3x9 {
-    let mut spin = Mat3x9::zeros();
-    for k in 0..3 {
-        spin.fixed_columns_mut::<3>(3 * k).copy_from(&(0.5 * cross_matrix(&gradient.column(k).into())));
-    }
-    spin
-}
-
-/// The repulsion of two balls, as it presses and as that changes with the slab.
-pub(super) struct Pressed<'a> {
-    pub repelled: &'a Repelled,
-    pub switch: &'a Switch,
-    /// N [N] and dN/dg [N/m].
-    pub push: [f64; 2],
-    pub stiffness: &'a Stiffness,
 }
 
 impl Balls {
