@@ -25,6 +25,7 @@ mod error;
 mod figure;
 mod recorded;
 mod show;
+mod solids;
 mod strip;
 #[cfg(feature = "study")]
 pub mod study;

@@ -4,6 +4,7 @@
 use crate::classes::BodyClasses;
 use crate::draw::Point;
 use crate::error::PlotError;
+use crate::solids::SolidSupportPicture;
 use crate::thin::Thinner;
 use gyration::support::{MotionPart, Support, SupportMotion};
 use gyration::tensor::{Mat3, Vec3};
@@ -24,6 +25,8 @@ pub struct RecordedScene<'a> {
     pub classes: BodyClasses,
     /// The supports, in order.
     pub supports: Vec<Support>,
+    /// The supports with a shape, in order.
+    pub solid_supports: Vec<SolidSupportPicture>,
     /// Acceleration of gravity [m/s²].
     pub gravity: Vec3,
 }
@@ -84,14 +87,14 @@ struct SupportPicture {
 
 #[derive(Deserialize)]
 #[serde(untagged)]
-enum MotionPicture {
+pub(crate) enum MotionPicture {
     One(MotionPartPicture),
     Several(Vec<MotionPartPicture>),
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum MotionPartPicture {
+pub(crate) enum MotionPartPicture {
     Velocity([f64; 3]),
     Oscillate { direction: [f64; 3], amplitude: f64, frequency: f64, phase: f64 },
     Rotate { axis: [f64; 3], point: [f64; 3], rate: f64 },
@@ -112,7 +115,7 @@ impl From<MotionPartPicture> for MotionPart {
 }
 
 /// The motion that a recording describes.
-fn motion(picture: Option<MotionPicture>) -> SupportMotion {
+pub(crate) fn motion(picture: Option<MotionPicture>) -> SupportMotion {
     let parts = match picture {
         None => Vec::new(),
         Some(MotionPicture::One(part)) => vec![part],
@@ -158,6 +161,7 @@ impl<'a> RecordedScene<'a> {
             bodies,
             classes,
             supports: supports.into_iter().map(Support::from).collect(),
+            solid_supports: SolidSupportPicture::all(recording)?,
             gravity: attribute::<[f64; 3]>(recording, "gravity")?.into(),
         })
     }
@@ -247,7 +251,7 @@ impl<'a> RecordedScene<'a> {
 }
 
 /// An attribute of the recording in a type of ours.
-fn attribute<T: DeserializeOwned>(recording: &Recording, name: &'static str) -> Result<T, PlotError> {
+pub(crate) fn attribute<T: DeserializeOwned>(recording: &Recording, name: &'static str) -> Result<T, PlotError> {
     described(recording, name, recording.attributes().get(name).unwrap_or(&Value::Null))
 }
 

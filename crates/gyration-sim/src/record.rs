@@ -193,7 +193,7 @@ impl<'a> Job<'a> {
         let expected = (self.plan.end / self.plan.sample).ceil() as usize + 1;
         Layout {
             arrays,
-            fixed: Surfaces::of(&self.model).arrays(),
+            fixed: Surfaces::of(self.model).arrays(),
             csv_order,
             labels: self.labels(),
             event_kinds: EVENT_KINDS.map(String::from).into(),
@@ -223,7 +223,7 @@ impl<'a> Job<'a> {
         attributes.insert("commit".into(), json!(provenance.commit));
         let (rtol, atol) = (plan.tolerance.rtol, plan.tolerance.atol);
         attributes.insert("tolerances".into(), json!({ "rtol": rtol, "atol": atol }));
-        let surfaces = Surfaces::of(&self.model);
+        let surfaces = Surfaces::of(self.model);
         let bodies = self.model.bodies.iter().zip(self.model.names()).zip(surfaces.of_bodies());
         attributes.insert(
             "bodies".into(),

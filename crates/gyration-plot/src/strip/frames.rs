@@ -144,10 +144,12 @@ fn motion(recorded: &RecordedScene, probes: &[Probe], strays: &Strays) -> ViewCr
 fn supports_move(recorded: &RecordedScene, probes: &[Probe]) -> bool {
     let size = recorded.bodies.iter().map(|body| body.size).fold(0.0, f64::max);
     let height = |support: &Support, probe: &Probe| support.gap(&Vec3::zeros(), probe.time);
-    recorded.supports.iter().any(|support| {
-        let heights = probes.iter().map(|probe| height(support, probe) - height(support, &probes[0]));
-        support.motion.turns() || heights.fold(0.0, |largest: f64, height| largest.max(height.abs())) > VISIBLE * size
-    })
+    recorded.solid_supports.iter().any(|support| !support.motion.is_fixed())
+        || recorded.supports.iter().any(|support| {
+            let heights = probes.iter().map(|probe| height(support, probe) - height(support, &probes[0]));
+            support.motion.turns()
+                || heights.fold(0.0, |largest: f64, height| largest.max(height.abs())) > VISIBLE * size
+        })
 }
 
 /// The probe from which on nothing moves to the eye; the last if something moves to the end.
@@ -171,8 +173,9 @@ fn frame(recorded: &RecordedScene, probe: &Probe, view: &View) -> Outlines {
     let mean = probe.poses.iter().map(|pose| pose.position).sum::<Vec3>() / probe.poses.len().max(1) as f64;
     let size = recorded.bodies.iter().map(|body| body.size).fold(0.0, f64::max);
     let site = Site { mean, half_side: PATCH * size };
+    let solids = recorded.solid_supports.iter().map(|support| Ground::of_solid(support, probe.time, view));
     let ground = |support| Ground::of(support, probe.time, &site, view);
-    Outlines { time: probe.time, bodies, grounds: recorded.supports.iter().filter_map(ground).collect() }
+    Outlines { time: probe.time, bodies, grounds: solids.chain(recorded.supports.iter().filter_map(ground)).collect() }
 }
 
 /// The frames in which no body covers much of itself at a time before; the first and the last are among them.

@@ -1,8 +1,10 @@
 //! Supports seen from the side, where the plane cuts the plane of the picture through the bodies; or from above, as a
 //! patch of the plane with a grid, below the bodies.
 
+use super::silhouette::convex_hull;
 use super::view::View;
 use crate::draw::Point;
+use crate::solids::SolidSupportPicture;
 use gyration::support::Support;
 use gyration::tensor::Vec3;
 
@@ -18,6 +20,8 @@ pub enum Ground {
         /// The lines.
         grid: Vec<Vec<Point>>,
     },
+    /// The areas that a support with a shape covers [m].
+    Solid(Vec<Vec<Point>>),
 }
 
 /// A line with a free side, in the plane of the picture.
@@ -47,6 +51,11 @@ const MESHES: i32 = 6;
 const LEAST_FACING: f64 = 0.1;
 
 impl Ground {
+    /// A support with a shape at a time, filled, at its true size.
+    pub fn of_solid(support: &SolidSupportPicture, time: f64, view: &View) -> Self {
+        Self::Solid(support.areas(time, |point| view.project(point), convex_hull))
+    }
+
     /// A support at a time; none if it cannot be seen in this view.
     pub fn of(support: &Support, time: f64, site: &Site, view: &View) -> Option<Self> {
         if view.raised {
@@ -61,6 +70,7 @@ impl Ground {
         match self {
             Self::Cut(cut) => vec![cut.nearest(center)],
             Self::Patch { corners, .. } => corners.clone(),
+            Self::Solid(areas) => areas.concat(),
         }
     }
 }

@@ -253,6 +253,11 @@ fn draw_grounds(grounds: &[Ground], map: &PageMap, drawing: &mut Page, frame: Re
     for ground in grounds {
         match ground {
             Ground::Cut(cut) => draw_cut(cut, map, drawing, frame),
+            Ground::Solid(areas) => {
+                for area in areas {
+                    drawing.area(map.place_line(area), Some(color::GREY.tint(0.3)), None, Some(frame));
+                }
+            }
             Ground::Patch { corners, grid } => {
                 let corners = map.place_line(corners);
                 let lines = grid.iter().map(|line| map.place_line(line)).collect();

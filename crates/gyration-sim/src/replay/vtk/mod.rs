@@ -1,7 +1,7 @@
 //! A recording as a time series for ParaView: the surfaces of the bodies with all that is known at their points.
 //!
 //! One `.vtp` a sample holds all bodies, so that a series is one thing to open, to colour and to play; `Threshold` by
-//! `body` takes one out. The supports are a second part of each time.
+//! `body` takes one out. The planes are a second part of each time, supports with a shape a third.
 //!
 //! | at | array | unit | what |
 //! |---|---|---|---|
@@ -14,6 +14,7 @@
 
 mod figures;
 mod ground;
+mod solids;
 
 use super::{BodySnapshot, Replay, ReplayError, Snapshot};
 use figures::Figures;
@@ -21,6 +22,7 @@ use ground::Sheets;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_record::export::vtk::{CompressedNumbers, DataArray, PolyData, SeriesFile, Whole, WholeValues, vtp};
 use gyration_record::{RecordError, Recording};
+use solids::SolidFigures;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -32,6 +34,7 @@ pub struct SurfaceSeries {
     replay: Replay,
     figures: Figures,
     sheets: Option<Sheets>,
+    solids: Option<SolidFigures>,
     /// Names of the arrays that have one number a sample.
     scalars: Vec<String>,
 }
@@ -47,6 +50,7 @@ impl SurfaceSeries {
         Ok(Self {
             figures: Figures::of(replay.model()),
             sheets: Sheets::of(recording, replay.model())?,
+            solids: SolidFigures::of(replay.model()),
             scalars: scalar.map(|array| array.name.clone()).collect(),
             recording: recording.clone(),
             replay,
@@ -78,6 +82,14 @@ impl SurfaceSeries {
                 write(&sheets.at(time), &folder.join(&file))?;
             }
             entries.push(SeriesFile { time, part: 1, file });
+        }
+        if let Some(solids) = &self.solids {
+            let shown = if solids.move_with_time() { row } else { 0 };
+            let file = format!("solid-supports-{shown:06}.vtp");
+            if solids.move_with_time() || !folder.join(&file).exists() {
+                write(&solids.at(time), &folder.join(&file))?;
+            }
+            entries.push(SeriesFile { time, part: if self.sheets.is_some() { 2 } else { 1 }, file });
         }
         Ok(entries)
     }
