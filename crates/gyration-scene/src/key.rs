@@ -37,6 +37,11 @@ impl Key {
         Self(segments)
     }
 
+    /// Whether this is an item of the array of this name at the root.
+    pub(crate) fn is_item_of(&self, array: &str) -> bool {
+        matches!(&self.0[..], [Segment::Name(name), Segment::Index(_)] if name == array)
+    }
+
     /// Whether the other place is this one or lies inside of it.
     pub(crate) fn holds(&self, other: &Self) -> bool {
         other.0.starts_with(&self.0)

@@ -2,6 +2,7 @@
 //!
 //! Goes on behind every error. The depth of the recursion is that of the tree, which the parsers limit.
 
+use super::fixed;
 use super::rule::{FieldRule, NumberLimits, Rule, Rules};
 use crate::document::Diagnostics;
 use crate::error::ErrorKind;
@@ -144,6 +145,10 @@ impl Walker<'_> {
             }
             let place = key.key(name);
             match fields.get(name) {
+                None if fixed::says(key, name) => {
+                    let message = "a body that does not move is a support";
+                    self.diagnostics.at(entry.key_span, &place, message, fixed::help(table));
+                }
                 None => {
                     let elsewhere = if *key == Key::root() { of_another_file(name) } else { None };
                     let help = elsewhere.unwrap_or_else(|| suggest::fix(name, fields.keys().map(String::as_str), what));

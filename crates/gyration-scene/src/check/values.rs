@@ -192,7 +192,7 @@ fn form(support: &Placed<Support>, reporter: &mut Reporter<'_>) {
     match (&value.plane, &value.shape) {
         (None, None) => {
             let help = "add `plane` or `shape`: a plane { origin = [x, y, z], normal = [x, y, z] }, or a solid";
-            reporter.note(key, "it has neither a plane nor a shape", help);
+            reporter.note(&key.key("plane"), "the key \"plane\", or \"shape\", is missing", help);
         }
         (Some(_), Some(_)) => {
             let help = "leave out one of them, or write two supports";
