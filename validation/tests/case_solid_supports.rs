@@ -40,7 +40,7 @@ fn a_support_is_what_a_body_of_infinite_mass_is() {
     let between = Experiment::of_scene(&between).run();
     let case =
         Case { row: None, name: "a tumbling box at a support that moves", source: "the same at a body of 1e14 kg" };
-    for column in ["a.vx", "a.vy", "a.vz", "a.wx", "a.wy", "a.wz"] {
+    for column in ["a.vx", "a.vy", "a.vz", "a.Pdot_xy", "a.Pdot_yz", "a.Pdot_zx"] {
         case.check("velocities after the impact", last(&between, column), last(&at, column), 1e-8);
     }
     assert!(at.relative_residual() < 1e-9, "{}", at.relative_residual());
@@ -96,9 +96,9 @@ fn a_ball_slides_down_a_fixed_ball_until_it_leaves() {
         case.check("largest error of its force over its weight", 0.0, largest(off), tolerance);
         let left = run.times_of("lift_off")[0];
         let place = experiment.motion_at(left).placement.position;
-        // The force is a hundredth of the weight there.
+        // The force is a hundredth of the weight there; a power law lets go slowly.
         let expected = (2.0 * start.cos() + 0.01) / 3.0;
-        case.check("cosθ where it leaves", expected, place.z / place.norm(), 20.0 * tolerance);
+        case.check("cosθ where it leaves", expected, place.z / place.norm(), 0.05);
     }
 }
 
@@ -131,7 +131,7 @@ fn a_ball_follows_a_support_that_oscillates() {
 
 #[test]
 fn a_ball_rolls_on_a_turntable_at_two_sevenths_of_its_rate() {
-    let (radius, place, rate, gap, gravity) = (0.05, 0.3, 3.5, 1e-4, 9.81);
+    let (radius, place, rate, gap, gravity) = (0.05, 0.3, 3.5, 1e-5, 9.81);
     let round = 2.0 / 7.0 * rate;
     let end = 0.5 * PI / round;
     let head = format!(

@@ -51,36 +51,41 @@ fn motions_add_up_and_all_bodies_meet_a_support() {
 fn what_is_wrong_with_a_support_is_told_at_its_key() {
     let support = |lines: &str| format!("[[support]]\nname = \"peg\"\n{lines}\n");
     let rows = [
-        (format!("§{}", support("")), "support.0", "neither a plane nor a shape", "`plane` or `shape`"),
-        (support("plane = {}\nshape = §{ sphere = { radius = 1 } }"), "support.0.shape", "beside a plane", "leave out"),
-        (support("plane = {}\nposition = §[0, 0, 0]"), "support.0.position", "a plane has none", "origin"),
+        (format!("§{}", support("")), "support.peg.plane", "\"shape\", is missing", "`plane` or `shape`"),
+        (
+            support("plane = {}\nshape = §{ sphere = { radius = 1 } }"),
+            "support.peg.shape",
+            "beside a plane",
+            "leave out",
+        ),
+        (support("plane = {}\nposition = §[0, 0, 0]"), "support.peg.position", "a plane has none", "origin"),
         (
             support("plane = {}\norientation = §{ quaternion = [1, 0, 0, 0] }"),
-            "support.0.orientation",
+            "support.peg.orientation",
             "a plane has none",
             "normal",
         ),
         (
             peg("motion = [{ velocity = [0, 0, 0] }, { rotate = { axis = §[0, 0, 0], rate = 1 } }]"),
-            "support.0.motion.1.rotate.axis",
+            "support.peg.motion.1.rotate.axis",
             "the axis is zero",
             "direction",
         ),
         (
             peg("motion = { oscillate = { direction = §[0, 0, 0], amplitude = 1, frequency = 1 } }"),
-            "support.0.motion.oscillate.direction",
+            "support.peg.motion.oscillate.direction",
             "the direction is zero",
             "direction",
         ),
         (
             support("shape = §{ torus = { major_radius = 0.3, minor_radius = 0.1 } }"),
-            "support.0.shape",
+            "support.peg.shape",
             "a torus is not convex",
             "union of convex",
         ),
         (
             support("shape = §{ points = [{ mass = 1, at = [0, 0, 0] }] }"),
-            "support.0.shape",
+            "support.peg.shape",
             "no surface",
             "with a surface",
         ),
@@ -112,11 +117,19 @@ fn what_is_wrong_with_a_support_is_told_at_its_key() {
             format!(
                 "[lattice]\ncell = [[1, 0, 0]]\n[[support]]\nname = \"peg\"\nshape = §{{ sphere = {{ radius = 0.1 }} }}\n"
             ),
-            "support.0.shape",
+            "support.peg.shape",
             "do not see a support with a shape alike",
             "a plane",
         ),
     ];
+    let fixed = "[[body]]\nname = \"floor\"\nshape = { box = { size = [2, 1, \"5 cm\"] } }\nmass = 1\n\
+                 position = [0, 0, -1]\n§fixed = true\n";
+    let rows = rows.into_iter().chain([(
+        fixed.to_owned(),
+        "body.floor.fixed",
+        "a body that does not move is a support",
+        "[[support]] with name = \"floor\", shape = { box = { size = [2.0, 1.0, \"5 cm\"] } }, position = [0.0, 0.0, -1.0]",
+    )]);
     for (text, key, message, help) in rows {
         assert_error(&format!("{TIME}{text}{BALL}"), key, message, help);
     }

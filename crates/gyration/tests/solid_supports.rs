@@ -5,9 +5,9 @@ use crate::between::{assert_blocks_are_derivatives, bodies_of, state_at};
 use crate::moving::*;
 use gyration::acting::Load;
 use gyration::body::Solid;
-use gyration::contact::AreaMeasure;
+use gyration::contact::{AreaMeasure, RelativeMotion};
 use gyration::dynamics::Workspace;
-use gyration::kinematics::{Placement, Quaternion};
+use gyration::kinematics::{BodyMotion, Placement, Quaternion, Velocity};
 use gyration::ledger::Work;
 use gyration::mass::MassProperties;
 use gyration::model::Model;
@@ -16,8 +16,8 @@ use gyration::pair::{PairLaws, Reach};
 use gyration::shape::{Cuboid, Cylinder, Shape, Sphere};
 use gyration::solid_support::SolidSupport;
 use gyration::state::State;
-use gyration::support::{MotionPart, SupportMotion};
-use gyration::tensor::{Mat3, Vec3};
+use gyration::support::{MotionPart, Support, SupportMotion};
+use gyration::tensor::{Mat3, Vec3, cross_matrix};
 use nalgebra::{Rotation3, UnitQuaternion};
 use std::convert::Infallible;
 use std::sync::Arc;
@@ -150,6 +150,52 @@ fn a_support_does_what_a_body_in_its_place_does() {
             assert!((moment - expected_moment).norm() < 1e-12 * expected_moment.norm());
         }
     }
+}
+
+/// Planes that turn, one about a point beside it while it is carried along.
+fn turning_planes() -> Vec<Support> {
+    let turn = MotionPart::Rotation { axis: Vec3::new(0.6, 0.0, 0.8), point: Vec3::new(0.5, -0.2, -0.4), rate: 0.9 };
+    let drift = MotionPart::Velocity(Vec3::new(0.2, -0.1, 0.3));
+    let other = MotionPart::Rotation { axis: Vec3::x(), point: Vec3::new(0.0, 0.3, 0.0), rate: -0.4 };
+    let [mut table, mut slope] = supports().try_into().unwrap();
+    table.motion = SupportMotion::new(vec![turn, drift]);
+    slope.motion = SupportMotion::new([&slope.motion.parts()[..], &[other, turn]].concat());
+    vec![table, slope]
+}
+
+#[test]
+fn blocks_at_planes_that_turn_are_derivatives_and_powers_the_rates_of_energy() {
+    for shape in &shapes()[..2] {
+        for measure in [AreaMeasure::DeformedArea, AreaMeasure::DeformedAreaPotential] {
+            let model = Model::new(Vec3::new(0.3, -0.2, -9.81), turning_planes(), bodies_of(shape));
+            let model = attached(model, [6.0, 5.0, 4.0, 3.0], measure);
+            assert!(model.works().contains(&Work::Support));
+            let state = among_supports(&model, 0.13);
+            assert_jacobian_is_the_derivative(&model, &state);
+            assert_power_is_the_rate_of_energy(&model, &state);
+        }
+    }
+}
+
+/// At rest on a plane that turns a body has the velocity of the plane, and feels no damping or friction.
+#[test]
+fn what_turns_with_a_plane_is_at_rest_to_it() {
+    let [plane, _] = turning_planes().try_into().unwrap();
+    let time = 0.7;
+    let carried = plane.motion.carriage(time);
+    let place = Placement {
+        position: Vec3::new(0.3, 1.0, 2.0),
+        gradient: Mat3::new(1.1, 0.2, 0.0, 0.1, 0.9, 0.3, 0.0, 0.1, 1.2),
+    };
+    let velocity = Velocity {
+        velocity: carried.velocity_at(&place.position),
+        gradient_rate: cross_matrix(&carried.spin) * place.gradient,
+    };
+    let relative = RelativeMotion::to(&plane, &BodyMotion { placement: place, velocity }, time);
+    assert!(relative.velocity.norm() < 1e-15 && relative.gradient_rate.norm() < 1e-15);
+    let start = plane.at(0.0);
+    let gap = start.gap(&Vec3::new(0.4, 0.2, 0.9));
+    assert!((plane.gap(&carried.place(&Vec3::new(0.4, 0.2, 0.9)), time) - gap).abs() < 1e-14);
 }
 
 #[test]

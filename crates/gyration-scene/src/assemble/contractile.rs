@@ -225,7 +225,7 @@ fn measure(
                 return Some(FeedbackMeasure::SupportGap);
             }
             let help = "add a [[support]], or let the body feel a `stretch` or a `rate`";
-            reporter.note(key, "there is no plane support that the body could be near", help);
+            reporter.note(key, "there is no support that is a plane, which the body could be near", help);
             None
         }
     }

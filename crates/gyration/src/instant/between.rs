@@ -1,7 +1,8 @@
 //! What springs exert, and what bodies that meet do to each other: the second stage of an instant. Each spring and the
 //! plane of each pair are found once, and both bodies have their part of what is exchanged there.
 
-use super::motions::{Motions, PartyAt};
+use super::motions::Motions;
+use super::parties::PartyAt;
 use super::slabs::{PairGaps, Remembered};
 use crate::acting::{PairAt, PairEnd};
 use crate::inadmissible::{FormulaOf, Inadmissible, Quantity};

@@ -7,16 +7,19 @@
 //! | file      | what                                                                          |
 //! |-----------|-------------------------------------------------------------------------------|
 //! | `motions` | places, velocities and what each kind of body needs of them; who is within reach |
+//! | `parties` | the two of a pair, with their motions                                       |
 //! | `between` | what springs and the pairs within reach do: loads, their derivatives           |
 //! | `slabs`   | the slabs between bodies, and those from which planes are looked for           |
 
 mod between;
 mod motions;
+mod parties;
 mod slabs;
 
 pub(crate) use between::{outside, with_sides};
+pub(crate) use motions::KindAt;
 pub use motions::MotionAt;
-pub(crate) use motions::{KindAt, PartyAt};
+pub(crate) use parties::PartyAt;
 pub use slabs::PairGaps;
 
 use crate::acting::{Load, PairAt, PairEnd};

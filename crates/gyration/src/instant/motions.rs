@@ -4,9 +4,10 @@
 //! a rigid body, P⁻¹ and L of one that deforms, F = P G⁻¹ of one that contracts. Reading allocates only the first time.
 //! A body without inertia is still until `dynamics::inertialess` gives it the velocities of its balance.
 
+use super::parties::PartyAt;
 use crate::acting::PairEnd;
 use crate::affine::Gyration;
-use crate::body::{Affine, Body, BodyKind, Contractile, RigidInertia, Slots, Solid, least_distance};
+use crate::body::{Affine, Body, BodyKind, Contractile, RigidInertia, Slots};
 use crate::contact::Deformation;
 use crate::contractile::Decomposition;
 use crate::extended::{Extended, ExtendedVec3, Numbers};
@@ -16,7 +17,6 @@ use crate::lattice::{Cell, HERE};
 use crate::load::Party;
 use crate::model::Model;
 use crate::neighbours::{NeighbourList, Pair};
-use crate::solid_support::SolidSupport;
 use crate::state::{BodyMotion, Turn, contraction_at};
 use crate::tensor::{Mat3, Vec3};
 
@@ -69,13 +69,6 @@ pub struct MotionAt<'a> {
     attitude: &'a Attitude,
     /// Where the other bodies are found.
     motions: &'a Motions,
-}
-
-/// One of the two of a pair, at a time.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum PartyAt<'a> {
-    Body(MotionAt<'a>),
-    Support(&'a SolidSupport, &'a BodyMotion),
 }
 
 /// The kind of a body, with what it needs of its motion more than once.
@@ -230,74 +223,6 @@ impl Motions {
     }
 }
 
-impl<'a> PartyAt<'a> {
-    /// Shape and surface.
-    pub fn solid(&self) -> &'a Solid {
-        match self {
-            Self::Body(at) => &at.body.solid,
-            Self::Support(support, _) => &support.solid,
-        }
-    }
-
-    /// p₀, P, ṗ₀, Ṗ.
-    pub fn motion(&self) -> &'a BodyMotion {
-        match self {
-            Self::Body(at) => at.motion,
-            Self::Support(_, motion) => motion,
-        }
-    }
-
-    /// P⁻¹.
-    pub fn inverse(&self) -> Mat3 {
-        match self {
-            Self::Body(at) => at.inverse(),
-            Self::Support(_, motion) => motion.placement.gradient.transpose(),
-        }
-    }
-
-    /// How it takes its surface along; none of what is rigid.
-    pub fn deformation(&self) -> Option<Deformation> {
-        match self {
-            Self::Body(at) => at.deformation(),
-            Self::Support(..) => None,
-        }
-    }
-
-    /// Whether it does not deform.
-    pub fn is_rigid(&self) -> bool {
-        match self {
-            Self::Body(at) => matches!(at.attitude, Attitude::Rigid(_)),
-            Self::Support(..) => true,
-        }
-    }
-
-    /// Whether its velocities are known before its balance.
-    pub fn has_inertia(&self) -> bool {
-        match self {
-            Self::Body(at) => at.body.has_inertia(),
-            Self::Support(..) => true,
-        }
-    }
-
-    /// The gap [m] to what is so far away that cannot be told from zero.
-    pub fn least_distance(&self, distance: f64) -> f64 {
-        match self {
-            Self::Body(at) => at.body.least_distance(distance),
-            Self::Support(support, _) => least_distance(support.size, distance),
-        }
-    }
-
-    /// The place of the second from that of the first, where it is in a cell as seen from that of the first [m].
-    #[inline]
-    pub fn apart([one, other]: &[Self; 2], cell: Cell) -> Vec3 {
-        match (one, other) {
-            (Self::Body(one), Self::Body(other)) => one.apart(other, cell),
-            (Self::Body(one), Self::Support(_, motion)) => -one.from_point(&motion.placement.position),
-            (Self::Support(_, motion), other) => other.motion().placement.position - motion.placement.position,
-        }
-    }
-}
-
 impl<'a> MotionAt<'a> {
     /// Its kind.
     #[inline]
@@ -381,7 +306,7 @@ impl<'a> MotionAt<'a> {
 
     /// The place of its centre of mass from a point of space [m], as `from` another body.
     #[inline]
-    fn from_point(&self, point: &Vec3) -> Vec3 {
+    pub(super) fn place_from(&self, point: &Vec3) -> Vec3 {
         if self.numbers.low.is_empty() || self.body.pin.is_some() {
             return self.motion.placement.position - point;
         }
