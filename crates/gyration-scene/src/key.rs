@@ -74,9 +74,14 @@ impl Key {
         at.span
     }
 
+    /// What the scene has at this place.
+    pub(crate) fn find<'a>(&self, root: &'a Node) -> Option<&'a Node> {
+        self.0.iter().try_fold(root, step)
+    }
+
     /// Whether the scene has something at this place.
     pub(crate) fn is_written(&self, root: &Node) -> bool {
-        self.0.iter().try_fold(root, step).is_some()
+        self.find(root).is_some()
     }
 }
 

@@ -106,6 +106,12 @@ pub struct AnyQuantity(
     pub f64,
 );
 
+impl From<AnyQuantity> for f64 {
+    fn from(quantity: AnyQuantity) -> Self {
+        quantity.0
+    }
+}
+
 impl<'de> Deserialize<'de> for AnyQuantity {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(NumberOrText).map(Self)

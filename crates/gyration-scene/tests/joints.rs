@@ -23,6 +23,12 @@ fn what_cannot_be_joined_is_refused_with_the_fix() {
         ("between = [\"space\", §\"space\"]\nkind = \"ball\"", "between.1", "closes nothing", "name a body"),
         ("between = [\"a\", \"b\"]\nkind = §\"rope\"", "kind", "rope", "ball"),
         ("between = [\"a\", \"b\"]\nkind = \"ball\"\naxis = §[0, 0, 1]", "axis", "has no axis", "leave it out"),
+        (
+            "between = [\"a\", \"space\"]\nkind = \"ball\"\ndrive = §{ torque = 1 }",
+            "drive",
+            "leaves no one motion",
+            "hinge",
+        ),
         ("between = [\"a\", \"b\"]\nkind = \"hinge\"\naxis = §[0, 0, 0]", "axis", "is zero", "[0, 0, 1]"),
         (
             "between = [\"a\", \"b\"]\nkind = \"ball\"\npoints = §[[0, 0, -0.1], [0, 0, 0.2]]",
@@ -43,6 +49,20 @@ fn what_cannot_be_joined_is_refused_with_the_fix() {
             "position",
         ),
     ];
+    let stop = "stop = { repulsion = { alpha = 1, nu = 2, d0 = 0.1 } }";
+    for (lines, key, message, help) in [
+        ("limits = §[-1, 1]".to_owned(), "limits", "need a `stop`", "repulsion"),
+        ("stop = §{ repulsion = { alpha = 1, nu = 2, d0 = 0.1 } }".to_owned(), "stop", "no", "limits"),
+        (format!("limits = §[0.5, 1]\n{stop}"), "limits", "starts at 0.0", "around"),
+        (format!("limits = §[-4, 1]\n{stop}"), "limits", "from −π to π", "180 deg"),
+        (format!("limits = [§\"-3 cm\", 1]\n{stop}"), "limits.0", "is an angle", "\"30 deg\""),
+        ("drive = { force = §1 }".to_owned(), "drive.force", "driven by a torque", "`torque`"),
+        ("drive = §{}".to_owned(), "drive", "no `torque`", "torque = 1"),
+        ("drive = { torque = \"2*§speed\" }".to_owned(), "drive.torque", "speed", "Expressions"),
+    ] {
+        let hinge = format!("between = [\"a\", \"space\"]\nkind = \"hinge\"\naxis = [0, 1, 0]\n{lines}");
+        assert_error(&joint(&hinge), &format!("joint.j.{key}"), message, help);
+    }
     for (lines, key, message, help) in rows {
         assert_error(&joint(lines), &format!("joint.j.{key}"), message, help);
     }

@@ -272,6 +272,12 @@ impl Stop {
                  there beside one another, or write a larger cell that holds several."
                     .to_string(),
             ),
+            Quantity::JointLimit { joint } => (
+                Reason::GapClosed,
+                format!("the joint {:?} reaches a limit{}", model.joints()[joint].name, in_brackets(left.value)),
+                "Its stop does not forbid that: raise its exponent, its coefficient or d0, or reduce the speed."
+                    .to_string(),
+            ),
             Quantity::Joints => (
                 Reason::Locked,
                 "the equations of joints become dependent: a linkage is stretched out, or folded, to where it is locked"
@@ -343,9 +349,11 @@ impl Stop {
                     FormulaOf::PointForce => "force",
                     FormulaOf::Friction => "linear_friction",
                     FormulaOf::Bond(_) => "formula",
+                    FormulaOf::Joint(_) => "drive",
                 };
                 let whose = match of {
                     FormulaOf::Bond(bond) => between(model, bond),
+                    FormulaOf::Joint(joint) => format!("of the joint {:?}", model.joints()[joint].name),
                     _ => format!("of body {body:?}"),
                 };
                 (

@@ -249,6 +249,7 @@ impl<'a> Load<'a> {
             Self::Spring(end) if end.interaction.law.damping > 0.0 => vec![Work::Load],
             Self::Bond(end) if end.interaction.works() => vec![Work::Load],
             // What the error of a step leaves: its force does no work.
+            Self::Joint(end) if end.interaction.motor.works() => vec![Work::Constraint, Work::Load],
             Self::Joint(_) => vec![Work::Constraint],
             Self::Couple(_) | Self::Applied(_) | Self::BodyForce(_) | Self::PointForce(_) => vec![Work::Load],
             Self::OwnFriction(_) | Self::MassFriction(_) => vec![Work::Viscosity],
@@ -270,8 +271,8 @@ impl<'a> Load<'a> {
             Self::Spring(_) => Some(Energy::Load),
             Self::Bond(end) => end.interaction.is_energy().then_some(Energy::Load),
             Self::Potential(potential) => potential.is_energy().then_some(Energy::Load),
-            Self::Joint(_)
-            | Self::Couple(_)
+            Self::Joint(end) => end.interaction.motor.stop.map(|_| Energy::Load),
+            Self::Couple(_)
             | Self::Applied(_)
             | Self::Resistance(_)
             | Self::BodyForce(_)

@@ -16,6 +16,8 @@ pub enum FormulaOf {
     Friction,
     /// The bond of this index.
     Bond(usize),
+    /// The drive of the joint of this index.
+    Joint(usize),
 }
 
 /// What left its domain.
@@ -54,6 +56,11 @@ pub enum Quantity {
     /// How far a body of a lattice has come away from its start in its cell, beside the first body, which must be less
     /// than what the pairs across cells were listed for [m].
     Stray,
+    /// The way that is left to a limit of the joint of this index, which must be > 0 [rad] or [m].
+    JointLimit {
+        /// Index of the joint in the model.
+        joint: usize,
+    },
     /// The least pivot of the equations of joints, which must be independent: a linkage is stretched out, or folded, to
     /// where it is locked.
     Joints,

@@ -4,12 +4,14 @@ use crate::between::{DIRECTED, assert_blocks_are_derivatives, bodies, joined, st
 use crate::moving::*;
 use gyration::body::{Body, BodyKind, RigidInertia};
 use gyration::dynamics::{Held, Workspace, acting};
-use gyration::joint::{Joint, JointKind, frame_about};
+use gyration::joint::{ANGLE_NAMES, Joint, JointKind, Motor, Stop, StopLaw, WAY_NAMES, frame_about};
 use gyration::kinematics::{Placement, Quaternion};
 use gyration::load::{Frame, Interaction, Party, SpringLaw};
 use gyration::model::Model;
 use gyration::state::{RigidStart, Start, State};
 use gyration::tensor::{Mat3, Vec3, axial};
+use gyration_expression::Expression;
+use std::sync::Arc;
 
 const KINDS: [JointKind; 5] =
     [JointKind::Ball, JointKind::Hinge, JointKind::Distance, JointKind::Slider, JointKind::Weld];
@@ -102,6 +104,37 @@ fn row_at(model: &Model, state: &State) -> Vec<Joint> {
         Joint::new(("joint", joint.kind), parties, points, frames, apart.norm())
     };
     row(&bodies).into_iter().map(at).collect()
+}
+
+/// The motor of every hinge and slider: a drive that feels place and rate, and stops with damping.
+fn motor(kind: JointKind) -> Motor {
+    let names = if kind == JointKind::Hinge { ANGLE_NAMES } else { WAY_NAMES };
+    let text = format!("0.7*sin(3*t) - 1.3*{0}*rate + 0.4*{0}^2", names[0]);
+    let drive = Expression::parse(&text, &names, &[]).unwrap();
+    let law = |coefficient: f64, exponent: f64| StopLaw { coefficient, exponent, reference: 0.8 };
+    let stop = Stop { limits: [-3.5, 3.7], repulsion: law(0.9, 3.0), damping: Some(law(0.4, 2.0)) };
+    Motor { drive: Some(Arc::new(drive)), stop: Some(stop) }
+}
+
+#[test]
+fn blocks_of_rigid_bodies_with_motors_are_derivatives_of_the_rates() {
+    for is_reversed in [false, true] {
+        let all = rigid_bodies(6);
+        let driven = |joint: Joint| match joint.kind {
+            JointKind::Hinge | JointKind::Slider => {
+                let joint = if is_reversed { joint.reversed() } else { joint };
+                let motor = motor(joint.kind);
+                joint.driven(motor)
+            }
+            JointKind::Ball | JointKind::Weld | JointKind::Distance => joint,
+        };
+        let joints: Vec<Joint> = row(&all).into_iter().map(driven).collect();
+        assert_eq!(joints.iter().filter(|joint| joint.motor.acts()).count(), 2);
+        let model = Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), all).with_joints(joints);
+        let state = State { time: 0.3, ..state(&model) };
+        assert_blocks_are_derivatives(&model, &state);
+        assert_power_is_the_rate_of_energy(&model, &state);
+    }
 }
 
 #[test]

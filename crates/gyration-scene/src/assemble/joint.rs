@@ -4,6 +4,8 @@
 //! coincide. Of a start that turns otherwise too, it is the part about the axis.
 
 use super::body::{AssembledBody, lever};
+use super::context::SceneContext;
+use super::motor::WrittenMotor;
 use super::start::placement;
 use crate::check::{PartialScene, Placed, Reporter, SPACE, direction};
 use crate::file::{self, JointWord};
@@ -30,6 +32,7 @@ pub(super) struct PlacedJoint {
 pub(super) fn joints(
     partial: &PartialScene,
     assembled: &[Option<AssembledBody>],
+    context: &SceneContext,
     reporter: &mut Reporter<'_>,
 ) -> Vec<PlacedJoint> {
     let name = |(index, body): (usize, &Option<AssembledBody>)| Some((body.as_ref()?.name.clone(), index));
@@ -50,7 +53,7 @@ pub(super) fn joints(
         if one.party == other.party {
             continue;
         }
-        let joint = Written { key, value, ends: [one, other] }.joint(reporter);
+        let joint = Written { key, value, ends: [one, other] }.joint(context, reporter);
         joints.extend(joint.map(|(joint, length)| PlacedJoint { key: key.clone(), joint, length }));
     }
     joints
@@ -101,7 +104,7 @@ impl End<'_> {
 
 impl Written<'_> {
     /// The joint, and the distance of its points \[m\].
-    fn joint(&self, reporter: &mut Reporter<'_>) -> Option<(Joint, f64)> {
+    fn joint(&self, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<(Joint, f64)> {
         let Self { key, value, ends } = self;
         let kind = match value.kind {
             JointWord::Ball => JointKind::Ball,
@@ -131,7 +134,12 @@ impl Written<'_> {
                 Joint::new(label, [other, one], [points[1], points[0]], [second, first], length).reversed()
             }
         };
-        Some((joint, length))
+        let start = match kind {
+            JointKind::Hinge => self.angle(&axis),
+            _ => (places[1] - places[0]).dot(&(ends[0].placement().gradient * axis)),
+        };
+        let motor = WrittenMotor { key, value, kind, start }.motor(context, reporter)?;
+        Some((joint.driven(motor), length))
     }
 
     /// The axis, in the axes of the first; of a joint without one any.
@@ -202,6 +210,8 @@ impl Written<'_> {
         let [Some(one), Some(other)] = [0, 1].map(|end| self.ends[end].orientation()) else { return 0.0 };
         let [w, x, y, z] = one.normalized().0;
         let [turned, rest @ ..] = Quaternion([w, -x, -y, -z]).times(&other).0;
-        2.0 * libm::atan2(Vec3::from(rest).dot(axis), turned)
+        let along = Vec3::from(rest).dot(axis);
+        // Twice the half angle, in (−π, π] whichever of two quaternions it is of.
+        libm::atan2(2.0 * along * turned, turned * turned - along * along)
     }
 }

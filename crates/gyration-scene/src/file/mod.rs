@@ -30,7 +30,7 @@ pub use bond::{Bond, BondDamping};
 pub use contact::{Adhesion, Contact, Damping, Friction, Measure, Reach, Repulsion};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
 pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
-pub use joint::{Joint, JointWord};
+pub use joint::{Joint, JointDrive, JointStop, JointWord, StopDamping, StopRepulsion};
 pub use keep::Keep;
 pub use lattice::{
     AbsorbingEnds, BranchNumber, CellCount, CellOffset, Lattice, LatticeWave, RandomWaves, Relaxed, Seed,

@@ -92,9 +92,12 @@ impl Acting {
                 self.total += *pair.on_body();
             }
             Load::Joint(end) => {
-                let loads = at.joint(end).on[end.end];
-                self.powers[Work::Constraint] += loads.power(&velocity.velocity, &velocity.gradient_rate);
-                self.total += loads;
+                let joint = at.joint(end);
+                self.powers[Work::Constraint] += joint.kept[end.end].power(&velocity.velocity, &velocity.gradient_rate);
+                if end.counts() {
+                    self.powers[Work::Load] += joint.motor.power;
+                }
+                self.total += joint.on(end.end);
             }
             Load::Couple(couple) => {
                 let moment = couple.moment(at.time, &at.inverse());
@@ -202,8 +205,12 @@ pub(super) fn add_slopes(
         }
         Load::Joint(end) => {
             let loads = at.joint(end);
-            slopes.loads += loads.on[end.end];
+            slopes.loads += loads.on(end.end);
             slopes.by_place += end.interaction.slope(loads, [end.end, end.end]);
+            if let Some(motor) = at.motor_slopes(end) {
+                slopes.by_place += motor.by_place[end.end][end.end];
+                slopes.by_rate += motor.by_rate[end.end][end.end];
+            }
         }
         Load::Couple(couple) => {
             let inverse = at.inverse();
@@ -263,6 +270,7 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                 }
                 Load::Spring(end) if end.counts() => end.interaction.law.energy(at.spring(&end).length),
                 Load::Bond(end) if end.counts() => at.bond(&end).energy,
+                Load::Joint(end) if end.counts() => at.joint(&end).motor.energy,
                 Load::Pair(pair) if pair.end.counts() => pair.loads.energy,
                 Load::Potential(potential) => {
                     let energy = potential.energy(&at.motion.placement, at.time, &mut scratch.formulas);

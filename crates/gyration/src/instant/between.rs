@@ -1,12 +1,13 @@
 //! What springs exert, and what bodies that meet do to each other: the second stage of an instant. Each spring and the
 //! plane of each pair are found once, and both bodies have their part of what is exchanged there.
 
+use super::joined::driven;
 use super::motions::Motions;
 use super::parties::PartyAt;
 use super::slabs::{PairGaps, Remembered};
 use crate::acting::{PairAt, PairEnd};
 use crate::inadmissible::{FormulaOf, Inadmissible, Quantity};
-use crate::joint::JointLoads;
+use crate::joint::{JointLoads, MotorSlopes};
 use crate::kinematics::BodyMotion;
 use crate::load::{BondFault, BondLoads, BondPlace, BondSlopes, Interaction, SpringLoads};
 use crate::model::{Model, PATIENCE};
@@ -31,8 +32,10 @@ pub(super) struct Between {
     /// The derivatives of that; empty where they were not asked for.
     bond_slopes: Vec<BondSlopes>,
     formulas: FormulaScratch,
-    /// What the joints of the model do, in their order; nothing until that is solved.
+    /// What the joints of the model do, in their order: their motors, until what keeps them is solved.
     joints: Vec<JointLoads>,
+    /// The derivatives of what their motors do; none of one without.
+    motor_slopes: Vec<Option<MotorSlopes>>,
 }
 
 /// Whoever looks at the pairs of an instant, one after the other.
@@ -121,6 +124,23 @@ impl Between {
         Ok(())
     }
 
+    /// Finds what the motors of joints do.
+    fn find_motors(&mut self, looking: &Looking) -> Result<(), Inadmissible> {
+        self.joints.clear();
+        self.motor_slopes.clear();
+        for number in 0..looking.model.joints().len() {
+            let (loads, slopes) = driven(looking.model, looking.motions, number, &mut self.formulas)?;
+            self.joints.push(loads);
+            self.motor_slopes.push(slopes);
+        }
+        Ok(())
+    }
+
+    /// The derivatives of what the motor of a joint does.
+    pub fn motor_slopes(&self, number: usize) -> Option<&MotorSlopes> {
+        self.motor_slopes[number].as_ref()
+    }
+
     /// Finds what the springs of an instant exert.
     fn find_springs(&mut self, looking: &Looking) -> Result<(), Inadmissible> {
         let Looking { model, motions, .. } = looking;
@@ -143,8 +163,7 @@ impl Between {
     pub fn find(&mut self, looking: &mut Looking) -> Result<(), Inadmissible> {
         self.find_springs(looking)?;
         self.find_bonds(looking)?;
-        self.joints.clear();
-        self.joints.resize(looking.model.joints().len(), JointLoads::default());
+        self.find_motors(looking)?;
         let Self { loads, slopes, sloped, .. } = self;
         loads.clear();
         sloped.clear();

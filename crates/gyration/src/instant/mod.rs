@@ -9,9 +9,11 @@
 //! | `motions` | places, velocities and what each kind of body needs of them; who is within reach |
 //! | `parties` | the two of a pair, with their motions                                       |
 //! | `between` | what springs and the pairs within reach do: loads, their derivatives           |
+//! | `joined`  | what the motors of joints do                                                   |
 //! | `slabs`   | the slabs between bodies, and those from which planes are looked for           |
 
 mod between;
+mod joined;
 mod motions;
 mod parties;
 mod slabs;
@@ -26,13 +28,14 @@ use crate::acting::{Load, PairAt, PairEnd};
 use crate::body::Slots;
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
-use crate::joint::{JointEnd, JointLoads};
+use crate::joint::{JointEnd, JointLoads, MotorSlopes};
 use crate::lattice::{Cell, HERE};
 use crate::load::{BondEnd, BondLoads, BondSlopes, SpringEnd, SpringLoads};
 use crate::model::Model;
 use crate::pair::PairScratch;
 use crate::tensor::Vec3;
 use between::{Between, Looking, Wanted};
+pub(crate) use joined::{apart, jet};
 pub(crate) use motions::Motions;
 use slabs::Remembered;
 use std::ops::Deref;
@@ -299,6 +302,11 @@ impl<'a> BodyAt<'a> {
     /// What a joint of the model does.
     pub(crate) fn joint(&self, end: &JointEnd) -> &'a JointLoads {
         self.between.joint(end.number)
+    }
+
+    /// The derivatives of what its motor does, at an instant of which they were asked; none without one.
+    pub(crate) fn motor_slopes(&self, end: &JointEnd) -> Option<&'a MotorSlopes> {
+        self.between.motor_slopes(end.number)
     }
 
     /// What a bond of this number does.

@@ -9,19 +9,27 @@
 //! | distance | the points stay at a distance (1)                                                    |
 //!
 //! (a, b, c) is a frame of each body, a the axis; both are one at the angle zero. `row` has one equation and its
-//! derivatives, `graph` who hangs together through joints, `dynamics/joints` has the forces that keep them. A joint
-//! knows no body: its forces are G_i λ, and do no work. Source: `docs/theory-rigid.md`.
+//! derivatives, `coordinate` and `motor` what acts along what a hinge or slider leaves free, `graph` who hangs together
+//! through joints, `dynamics/joints` has the forces that keep them. A joint knows no body: its forces are G_i λ, and do
+//! no work. Source: `docs/theory-rigid.md`.
 
+mod coordinate;
 mod graph;
+mod motor;
 mod row;
 
+pub use coordinate::{CoordinateAt, JointCoordinate};
 pub use graph::JointGraph;
+pub use motor::{ANGLE_NAMES, Motor, MotorAt, MotorFault, Stop, StopLaw, WAY_NAMES};
 pub use row::{Jet, Row};
 
 use crate::load::{Interaction, InteractionEnd, Loads, Mat12, Party};
 use crate::tensor::{Mat3, Vec3, axial};
-use nalgebra::Matrix3x4;
+use gyration_expression::Scratch;
+use nalgebra::{Matrix3x4, SVector};
 use std::sync::Arc;
+
+type Vec12 = SVector<f64, 12>;
 
 /// How two parties are joined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,8 +62,11 @@ pub struct Joint {
     pub anchor: Vec3,
     /// Whether the scene names them the other way round, and so is told of the force on the second.
     pub is_reversed: bool,
+    /// What acts along what it leaves free.
+    pub motor: Motor,
     parties: [Party; 2],
-    frames: [Mat3; 2],
+    /// What a hinge or slider leaves free.
+    coordinate: Option<JointCoordinate>,
     rows: Vec<Row>,
 }
 
@@ -65,10 +76,32 @@ pub type JointEnd<'a> = InteractionEnd<'a, Joint>;
 /// What a joint does to its parties.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointLoads {
-    /// (f | M) on each.
-    pub on: [Loads; 2],
+    /// (f | M) on each of what keeps its equations.
+    pub kept: [Loads; 2],
     /// λ of its equations.
     pub multipliers: [f64; MOST_ROWS],
+    /// (f | M) on each of its motor.
+    pub driven: [Loads; 2],
+    /// F of its motor.
+    pub motor: MotorAt,
+}
+
+/// The derivatives of what the motor of a joint does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotorSlopes {
+    /// ∂Q_i/∂q_j, i first.
+    pub by_place: [[Mat12; 2]; 2],
+    /// ∂Q_i/∂q̇_j.
+    pub by_rate: [[Mat12; 2]; 2],
+}
+
+impl JointLoads {
+    /// (f | M) on one of the two.
+    pub fn on(&self, end: usize) -> Loads {
+        let mut sum = self.kept[end];
+        sum += self.driven[end];
+        sum
+    }
 }
 
 impl Interaction for Joint {
@@ -126,13 +159,26 @@ impl Joint {
             JointKind::Weld => together.into_iter().chain(turned).collect(),
             JointKind::Distance => vec![Row::distance(&points, length)],
         };
-        Self { name: name.into(), kind, points, anchor, is_reversed: false, parties, frames, rows }
+        let axis = |own: usize, other: usize| Row::perpendicular(&first[own], &second[other]);
+        let coordinate = match kind {
+            JointKind::Hinge => Some(JointCoordinate::Angle([axis(2, 1), axis(1, 1)])),
+            JointKind::Slider => Some(JointCoordinate::Way(Row::across(&points, &first[0]))),
+            JointKind::Ball | JointKind::Weld | JointKind::Distance => None,
+        };
+        let motor = Motor::default();
+        Self { name: name.into(), kind, points, anchor, is_reversed: false, motor, parties, coordinate, rows }
     }
 
     /// The same joint, which the scene names the other way round.
     #[must_use]
     pub fn reversed(self) -> Self {
         Self { is_reversed: true, ..self }
+    }
+
+    /// The same joint with what acts along what it leaves free.
+    #[must_use]
+    pub fn driven(self, motor: Motor) -> Self {
+        Self { motor, ..self }
     }
 
     /// The same joint between parties that have other indices.
@@ -151,16 +197,53 @@ impl Joint {
         &self.rows
     }
 
-    /// What it does with these multipliers.
-    pub(crate) fn loads(&self, of: &[Jet; 2], multipliers: &[f64]) -> JointLoads {
-        let mut kept = JointLoads::default();
+    /// Adds what it does with these multipliers.
+    pub(crate) fn keep(&self, of: &[Jet; 2], multipliers: &[f64], loads: &mut JointLoads) {
         for (k, (row, multiplier)) in self.rows.iter().zip(multipliers).enumerate() {
-            kept.multipliers[k] = *multiplier;
+            loads.multipliers[k] = *multiplier;
             for end in 0..2 {
-                kept.on[end] += packed(&(row.gradient(of, end) * *multiplier));
+                loads.kept[end] += packed(&(row.gradient(of, end) * *multiplier));
             }
         }
-        kept
+    }
+
+    /// What its motor does.
+    ///
+    /// # Errors
+    /// [`MotorFault`].
+    pub(crate) fn drive(&self, of: &[Jet; 2], time: f64, scratch: &mut Scratch) -> Result<JointLoads, MotorFault> {
+        let mut loads = JointLoads::default();
+        let Some(coordinate) = self.coordinate.filter(|_| self.motor.acts()) else { return Ok(loads) };
+        let at = coordinate.at(of);
+        loads.motor = self.motor.at([self.told(at.value), self.told(at.rate), time], scratch)?;
+        let force = self.told(loads.motor.force);
+        loads.driven = at.gradient.map(|gradient| unpacked(&(gradient * force)));
+        Ok(loads)
+    }
+
+    /// The derivatives of what its motor does.
+    pub(crate) fn motor_slopes(&self, of: &[Jet; 2], motor: &MotorAt) -> Option<MotorSlopes> {
+        let coordinate = self.coordinate.filter(|_| self.motor.acts())?;
+        let at = coordinate.at(of);
+        let second = [0, 1].map(|i| [0, 1].map(|j| coordinate.second(of, [i, j])));
+        let rates = [0, 1].map(|end| Vec12::from_column_slice(of[end].rate.as_slice()));
+        let force = self.told(motor.force);
+        let by_place = |i: usize, j: usize| {
+            // ∂ẋ/∂q_j.
+            let swept = second[j][0] * rates[0] + second[j][1] * rates[1];
+            let change = motor.by_value * at.gradient[j] + motor.by_rate * swept;
+            force * second[i][j] + at.gradient[i] * change.transpose()
+        };
+        let by_rate = |i: usize, j: usize| motor.by_rate * at.gradient[i] * at.gradient[j].transpose();
+        Some(MotorSlopes {
+            by_place: [0, 1].map(|i| [0, 1].map(|j| by_place(i, j))),
+            by_rate: [0, 1].map(|i| [0, 1].map(|j| by_rate(i, j))),
+        })
+    }
+
+    /// A coordinate, rate or force along it as the scene has it, which may name the two the other way round.
+    fn told(&self, value: f64) -> f64 {
+        if self.is_reversed { -value } else { value }
     }
 
     /// ∂Q_i/∂q_j at fixed multipliers.
@@ -177,29 +260,24 @@ impl Joint {
         [0, 1].map(|end| of[end].place * row::point(&self.points[end]))
     }
 
-    /// The angle by which the second is turned about the axis, from where both frames are one, in (−π, π] [rad]; none
-    /// of a joint that is no hinge.
+    /// The angle by which the second that the scene names is turned about the axis, from where both frames are one, in
+    /// (−π, π] [rad]; none of a joint that is no hinge.
     pub fn angle(&self, of: &[Jet; 2]) -> Option<f64> {
-        if self.kind != JointKind::Hinge {
-            return None;
-        }
-        let axis = |end: usize, k: usize| of[end].place * row::direction(&self.frames[end].column(k).into_owned());
-        let (n, first, second) = (axis(0, 0).normalize(), axis(0, 1), axis(1, 1));
-        let across = |vector: Vec3| vector - n * n.dot(&vector);
-        let (first, second) = (across(first), across(second));
-        Some(libm::atan2(n.dot(&first.cross(&second)), first.dot(&second)))
+        let coordinate = self.coordinate.filter(|_| self.kind == JointKind::Hinge)?;
+        Some(self.told(coordinate.at(of).value))
     }
 
-    /// The distance of the points; of a slider, how far the second has gone along the axis [m]; none of any other.
+    /// The distance of the points; of a slider, how far the second that the scene names has gone along the axis [m];
+    /// none of any other.
     pub fn distance(&self, of: &[Jet; 2]) -> Option<f64> {
-        let [one, other] = self.places(of);
-        match self.kind {
-            JointKind::Distance => Some((other - one).norm()),
-            JointKind::Slider => {
-                let axis = of[0].place * row::direction(&self.frames[0].column(0).into_owned());
-                Some((other - one).dot(&axis.normalize()))
+        match self.coordinate {
+            Some(JointCoordinate::Way(row)) => Some(self.told(row.value(of))),
+            Some(JointCoordinate::Angle(_)) => None,
+            None if self.kind == JointKind::Distance => {
+                let [one, other] = self.places(of);
+                Some((other - one).norm())
             }
-            JointKind::Ball | JointKind::Hinge | JointKind::Weld => None,
+            None => None,
         }
     }
 
@@ -210,12 +288,17 @@ impl Joint {
 
     /// Force [N] and torque about its point [N m] on one of its parties, in space.
     pub fn wrench(&self, of: &[Jet; 2], loads: &JointLoads, end: usize) -> [Vec3; 2] {
-        let Loads { force, moment } = loads.on[end];
+        let Loads { force, moment } = loads.on(end);
         let gradient = of[end].place.fixed_view::<3, 3>(0, 1).into_owned();
         // M Pᵀ = ∫ q ⊗ (p − p₀): its antisymmetric part is the torque about the centre.
         let about_center = axial(&(moment * gradient.transpose()));
         [force, about_center - (gradient * self.points[end]).cross(&force)]
     }
+}
+
+/// (f | M) of a vector of twelve.
+fn unpacked(numbers: &Vec12) -> Loads {
+    packed(&Matrix3x4::from_column_slice(numbers.as_slice()))
 }
 
 /// (f | M) of three rows and four columns.

@@ -38,8 +38,14 @@ pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usiz
             }
             Load::Joint(end) => match end.other().body() {
                 Some(other) => {
-                    let by_place = end.interaction.slope(at.joint(&end), [end.end, 1 - end.end]);
-                    ((other, end.cell()), Coupling { by_place, by_rate: None })
+                    let own = end.end;
+                    let mut by_place = end.interaction.slope(at.joint(&end), [own, 1 - own]);
+                    let motor = at.motor_slopes(&end);
+                    if let Some(motor) = motor {
+                        by_place += motor.by_place[own][1 - own];
+                    }
+                    let by_rate = motor.map(|motor| motor.by_rate[own][1 - own]);
+                    ((other, end.cell()), Coupling { by_place, by_rate })
                 }
                 None => return Ok(()),
             },

@@ -6,11 +6,11 @@
 //! put back by Newton's method, to all digits that their numbers have.
 
 use super::super::Workspace;
-use super::{JointEquations, Vec12, apart, jets};
+use super::{JointEquations, Vec12, jets};
 use crate::body::{BodyKind, Slots};
 use crate::extended::{Extended, Numbers};
 use crate::inadmissible::Inadmissible;
-use crate::instant::Instants;
+use crate::instant::{Instants, apart};
 use crate::joint::{Jet, Row};
 use crate::kinematics::Quaternion;
 use crate::model::Model;

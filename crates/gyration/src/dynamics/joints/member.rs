@@ -8,7 +8,7 @@
 use super::super::jacobian::{Lift, Lower};
 use super::Vec12;
 use crate::body::{BodyKind, Slots};
-use crate::instant::{KindAt, MotionAt};
+use crate::instant::{KindAt, MotionAt, jet};
 use crate::joint::Jet;
 use crate::tensor::{Mat3, Vec3, axial, cross_matrix};
 use nalgebra::Matrix3x4;
@@ -41,16 +41,11 @@ fn columns(vector: &Vec3, matrix: &Mat3) -> Matrix3x4<f64> {
 impl Member {
     /// A body whose velocities do not change.
     pub fn of(at: &MotionAt, wants_slopes: bool) -> Self {
-        let (placement, velocity) = (&at.motion.placement, &at.motion.velocity);
         let turn = match at.kind() {
-            KindAt::Rigid(_, turn) => Some([placement.gradient, cross_matrix(&turn.spin)]),
+            KindAt::Rigid(_, turn) => Some([at.motion.placement.gradient, cross_matrix(&turn.spin)]),
             KindAt::Affine(..) | KindAt::Contractile(..) => None,
         };
-        let jet = Jet {
-            place: columns(&Vec3::zeros(), &placement.gradient),
-            rate: columns(&velocity.velocity, &velocity.gradient_rate),
-            acceleration: Matrix3x4::zeros(),
-        };
+        let jet = jet(at);
         let slots = Slots::with_inertia(at.body, 0);
         let arm = at.body.pin.as_ref().map(|pin| pin.point);
         let mobility = match &at.body.kind {

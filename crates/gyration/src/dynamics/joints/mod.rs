@@ -29,7 +29,7 @@ pub(super) use slopes::add_jacobian;
 use super::Scratch;
 use super::body_rates::body_rates;
 use crate::inadmissible::{Inadmissible, Quantity};
-use crate::instant::{Instant, MotionAt};
+use crate::instant::{Instant, MotionAt, apart};
 use crate::joint::{Jet, Joint, JointGraph};
 use crate::load::Interaction;
 use crate::model::Model;
@@ -90,17 +90,6 @@ fn jets(joint: &Joint, members: &[Member], graph: &JointGraph, apart: Matrix3x4<
     jets
 }
 
-/// p₀ of the second party of a joint, or its anchor, from p₀ of the first \[m\].
-fn apart<'a>(joint: &Joint, at: impl Fn(usize) -> MotionAt<'a>) -> Matrix3x4<f64> {
-    let [one, other] = joint.parties().map(|party| party.body().map(&at));
-    let mut apart = Matrix3x4::zeros();
-    if let Some(one) = one {
-        let place = other.map_or_else(|| one.place_from_center(&joint.anchor), |other| other.from(&one));
-        apart.set_column(0, &place);
-    }
-    apart
-}
-
 impl JointEquations {
     fn solve(&mut self, instant: &mut Instant, scratch: &mut Scratch) -> Result<(), Inadmissible> {
         let model = instant.model();
@@ -120,7 +109,8 @@ impl JointEquations {
             let model = instant.model();
             let joint = &model.joints()[number];
             let apart = apart(joint, |body| instant.motions().at(model, body));
-            let loads = joint.loads(&jets(joint, members, graph, apart), &side[graph.ranges[number].clone()]);
+            let mut loads = *instant.joint(number);
+            joint.keep(&jets(joint, members, graph, apart), &side[graph.ranges[number].clone()], &mut loads);
             instant.set_joint(number, loads);
         }
         self.accelerate_members();

@@ -1,8 +1,8 @@
 //! What is recorded of a joint.
 
 use super::super::Scratch;
-use super::{Room, apart, jets};
-use crate::instant::Instant;
+use super::{Room, jets};
+use crate::instant::{Instant, apart};
 use crate::load::Interaction;
 use crate::tensor::Vec3;
 
@@ -38,13 +38,12 @@ pub fn observe_joint(instant: &Instant, scratch: &Scratch, number: usize) -> Joi
         Some(body) => at(body).motion.placement.place(joint.point(end)),
         None => joint.anchor,
     };
-    let sign = if joint.is_reversed { -1.0 } else { 1.0 };
     JointObservation {
         place,
         force,
         torque,
-        angle: joint.angle(&jets).map(|angle| sign * angle),
-        distance: joint.distance(&jets).map(|distance| if joint.kind.has_axis() { sign * distance } else { distance }),
+        angle: joint.angle(&jets),
+        distance: joint.distance(&jets),
         misfit: joint.rows().iter().map(|row| row.value(&jets).abs()).fold(0.0, f64::max),
     }
 }

@@ -10,7 +10,7 @@ use super::super::Scratch;
 use super::super::jacobian::Blocks;
 use super::{JointEquations, Room, Vec12};
 use crate::body::Slots;
-use crate::instant::Instant;
+use crate::instant::{Instant, apart};
 use crate::load::Interaction;
 
 /// Who acts on linkages.
@@ -128,7 +128,7 @@ impl JointEquations {
         for (number, end) in &graph.joints_of[place] {
             let joint = &model.joints()[*number];
             debug_assert!(joint.parties()[*end].body().is_some());
-            let apart = super::apart(joint, |body| instant.motions().at(model, body));
+            let apart = apart(joint, |body| instant.motions().at(model, body));
             let jets = super::jets(joint, members, graph, apart);
             for (row, out) in joint.rows().iter().zip(&mut side[graph.ranges[*number].clone()]) {
                 *out -= row.change(&jets, *end, &change);

@@ -1,0 +1,141 @@
+//! What acts along the free motion of a hinge or slider: limits with their stops, and drives.
+
+use super::context::SceneContext;
+use super::own::{accepted, constants};
+use crate::check::Reporter;
+use crate::file::{Entry, Joint, JointDrive};
+use crate::key::Key;
+use crate::tree::Node;
+use crate::units::{UnitDimension, parse_quantity};
+use gyration::joint::{ANGLE_NAMES, JointKind, Motor, MotorFault, Stop, StopLaw, WAY_NAMES};
+use gyration_expression::{Expression, Scratch};
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// A joint whose motor is read.
+pub(super) struct WrittenMotor<'a> {
+    pub key: &'a Key,
+    pub value: &'a Joint,
+    pub kind: JointKind,
+    /// The coordinate at the start, as the scene has it \[rad\], \[m\].
+    pub start: f64,
+}
+
+const ANGLE: UnitDimension = UnitDimension::new(0, 0, 0, 1);
+const LENGTH: UnitDimension = UnitDimension::new(1, 0, 0, 0);
+
+impl WrittenMotor<'_> {
+    /// The motor; notes what is wrong with it.
+    pub fn motor(&self, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Motor> {
+        let Self { key, value, kind, .. } = self;
+        if !kind.has_axis() {
+            let keys =
+                [("limits", value.limits.is_some()), ("stop", value.stop.is_some()), ("drive", value.drive.is_some())];
+            for (name, _) in keys.iter().filter(|(_, is_written)| *is_written) {
+                let message = format!("a joint of the kind \"{}\" leaves no one motion free", kind.word());
+                reporter.note(&key.key(name), message, "leave it out, or write kind = \"hinge\" or \"slider\"");
+            }
+            let is_bare = keys.iter().all(|(_, is_written)| !is_written);
+            return is_bare.then(Motor::default);
+        }
+        let stop = self.stop(reporter);
+        let drive = match &value.drive {
+            Some(drive) => Some(Arc::new(self.drive(drive, context, reporter)?)),
+            None => None,
+        };
+        Some(Motor { drive, stop: stop? })
+    }
+
+    /// The stop of the limits, if there are any; none at all if they are wrong.
+    fn stop(&self, reporter: &mut Reporter<'_>) -> Option<Option<Stop>> {
+        let Self { key, value, kind, start } = self;
+        let (limits, written) = match (&value.limits, &value.stop) {
+            (None, None) => return Some(None),
+            (Some(limits), Some(stop)) => (limits.map(|limit| limit.0), stop),
+            (Some(_), None) => {
+                let help = "write stop = { repulsion = { alpha = 1, nu = 2, d0 = 0.01 } }";
+                reporter.note(&key.key("limits"), "limits need a `stop`: the field that pushes back there", help);
+                return None;
+            }
+            (None, Some(_)) => {
+                reporter.note(&key.key("stop"), "a stop acts at `limits`, of which there are none", "write limits");
+                return None;
+            }
+        };
+        let place = key.key("limits");
+        let are_of = [0, 1].map(|k| self.is_of(&place.index(k), self.unit(), reporter));
+        let mut is_right = are_of[0] && are_of[1];
+        for name in ["repulsion", "damping"] {
+            is_right &= self.is_of(&key.key("stop").key(name).key("d0"), self.unit(), reporter);
+        }
+        let [low, high] = limits;
+        if *kind == JointKind::Hinge && !(low >= -PI && high <= PI) {
+            let help = "write angles from -180 deg to 180 deg";
+            reporter.note(&place, format!("an angle is from −π to π, and the limits are {low:?} and {high:?}"), help);
+            return None;
+        }
+        if !(low < *start && *start < high) {
+            let message = format!("the joint starts at {start:?}, which is not between {low:?} and {high:?}");
+            reporter.note(&place, message, "write limits around the start, or start elsewhere");
+            return None;
+        }
+        let of = |coefficient: f64, exponent: f64, reference: f64| StopLaw { coefficient, exponent, reference };
+        let repulsion = of(written.repulsion.alpha.value(), written.repulsion.nu.0, written.repulsion.d0.value());
+        let damping = written.damping.map(|damping| of(damping.beta.value(), damping.nu.0, damping.d0.value()));
+        if repulsion.exponent < 1.0 {
+            let message = "an exponent below 1 lets the joint reach its limit";
+            reporter.note(&key.key("stop").key("repulsion").key("nu"), message, "write at least 1");
+            return None;
+        }
+        is_right.then_some(Some(Stop { limits, repulsion, damping }))
+    }
+
+    fn unit(&self) -> UnitDimension {
+        if self.kind == JointKind::Hinge { ANGLE } else { LENGTH }
+    }
+
+    /// Whether a number is without a unit, or has the one of the coordinate; notes it otherwise.
+    fn is_of(&self, key: &Key, dimension: UnitDimension, reporter: &mut Reporter<'_>) -> bool {
+        let node = key.find(&reporter.document.root);
+        let unit = node.and_then(Node::text).and_then(|text| parse_quantity(text).ok()).map(|(_, unit)| unit.dimension);
+        let is_right = unit.is_none_or(|unit| unit == dimension);
+        if !is_right {
+            let (what, example) =
+                if self.kind == JointKind::Hinge { ("an angle", "\"30 deg\"") } else { ("a length", "\"2 cm\"") };
+            let message = format!("of a {} this is {what}, and its unit is none of one", self.kind.word());
+            reporter.note(key, message, format!("write {example}"));
+        }
+        is_right
+    }
+
+    fn drive(&self, drive: &JointDrive, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Expression> {
+        let key = self.key.key("drive");
+        let is_hinge = self.kind == JointKind::Hinge;
+        let (name, other, names) =
+            if is_hinge { ("torque", "force", ANGLE_NAMES) } else { ("force", "torque", WAY_NAMES) };
+        let (own, wrong) = if is_hinge { (&drive.torque, &drive.force) } else { (&drive.force, &drive.torque) };
+        if wrong.is_some() {
+            let message = format!("a {} is driven by a {name}", self.kind.word());
+            reporter.note(&key.key(other), message, format!("write `{name}`"));
+            return None;
+        }
+        let Some(written) = own else {
+            reporter.note(&key, format!("it has no `{name}`"), format!("write {name} = 1, or an expression in quotes"));
+            return None;
+        };
+        let place = key.key(name);
+        let text = match written {
+            Entry::Number(number) => format!("{number:?}"),
+            Entry::Expression(text) => text.to_string(),
+        };
+        let constants = constants((key.key("constants"), drive.constants.as_ref()), context, &names, reporter)?;
+        let read = Expression::parse(&text, &names, &constants).map(|expression| expression.holding(&[2]));
+        let expression = accepted(read, (&place, &text), reporter)?;
+        let motor = Motor { drive: Some(Arc::new(expression.clone())), stop: None };
+        if let Err(MotorFault::Undefined(undefined)) = motor.at([self.start, 0.0, 0.0], &mut Scratch::default()) {
+            reporter.note(&place, undefined.to_string(), "write one that is defined and smooth at the start");
+            return None;
+        }
+        Some(expression)
+    }
+}
