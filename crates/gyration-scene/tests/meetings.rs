@@ -112,10 +112,16 @@ fn what_is_wrong_with_a_meeting_is_told_at_its_key() {
             "2 or more",
         ),
         (
-            between(both, &format!("{REPULSION}\nadhesion = §{{ beta = 1, nu_attractive = 3, nu_repulsive = 6 }}")),
-            "contact.0.adhesion",
-            "no adhesion between bodies",
-            "supports",
+            between(both, &format!("{REPULSION}\nadhesion = {{ beta = 1, nu_attractive = §1.5, nu_repulsive = 6 }}")),
+            "contact.0.adhesion.nu_attractive",
+            "1.5 is less than 2",
+            "2 or more",
+        ),
+        (
+            format!("§{}", between(both, "adhesion = { beta = 0, nu_attractive = 3, nu_repulsive = 6 }")),
+            "contact.0.repulsion",
+            "where the plane",
+            "beta > 0",
         ),
         (
             between(both, &format!("{REPULSION}\nmeasure = §\"deformed_area_potential\"")),

@@ -35,7 +35,7 @@ pub struct PairAt<'a> {
 impl PairAt<'_> {
     /// Whether it does anything that a number can tell: below the energy at which it begins, it does not.
     pub fn acts(&self) -> bool {
-        self.loads.energy != 0.0
+        self.loads.stored != 0.0
     }
 
     /// (f | M) on the body.

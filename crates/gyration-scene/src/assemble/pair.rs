@@ -9,7 +9,7 @@ use crate::check::Reporter;
 use crate::file::Contact;
 use crate::key::Key;
 use gyration::body::Solid;
-use gyration::contact::{AreaMeasure, ContactLaw};
+use gyration::contact::{AreaMeasure, ContactLaw, LawKind};
 use gyration::kinematics::Placement;
 use gyration::neighbours::{BodyPair, PairRule, PairRules, Sphere, each_near};
 use gyration::pair::{Mass, Overlap, PairLaws, PairLawsError, Reach};
@@ -32,18 +32,16 @@ pub(super) fn laws(
         PairLawsError::NoRepulsion => (
             key.key("repulsion"),
             "between bodies nothing says where the plane between them stands".to_owned(),
-            "give it a `repulsion` with alpha > 0, which places the plane",
+            "give it a `repulsion` with alpha > 0, or an `adhesion` with beta > 0, which places the plane",
         ),
-        PairLawsError::TooWeak { exponent } => (
-            key.key("repulsion").key("nu"),
-            format!("{exponent:?} is less than 2, the least with which a plane stays off both bodies"),
-            "write an exponent of 2 or more",
-        ),
-        PairLawsError::Missing { kind } => (
-            key.key(kind.name()),
-            format!("this version has no {} between bodies", kind.name()),
-            "leave it out, or give it to contacts with supports",
-        ),
+        PairLawsError::TooWeak { kind, exponent } => {
+            let exponent_key = if kind == LawKind::Adhesion { "nu_attractive" } else { "nu" };
+            (
+                key.key(kind.name()).key(exponent_key),
+                format!("{exponent:?} is less than 2, the least with which a plane stays off both bodies"),
+                "write an exponent of 2 or more",
+            )
+        }
         PairLawsError::Measure => (
             key.key("measure"),
             "this version has no such measure between bodies".to_owned(),

@@ -41,7 +41,7 @@ pub(super) fn reach(
         return None;
     }
     let falling = Falling { gravity: gravity.norm(), speed: largest_speed(&sets, support) };
-    if !falling.acts() {
+    if !falling.acts() && laws.held_gap().is_none() {
         // Of a body with an error it is not known whether it moves.
         if assembled.iter().all(Option::is_some) {
             let message = "nothing says how near bodies come: there is no gravity, and none of them moves";

@@ -53,10 +53,10 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
             // A pair that does nothing may be left out before its plane is found.
             Load::Pair(pair) if !pair.acts() => {}
             Load::Pair(pair) => {
-                let PairLoads { gap, energy, .. } = pair.loads;
+                let PairLoads { gap, stored, .. } = pair.loads;
                 let exponent = pair.end.interaction.form.laws.repulsion.exponent;
                 let digits = 8.0 * (exponent - 1.0) + exponent * at.body.size / gap;
-                let rounding = if pair.end.counts() { digits * f64::EPSILON * energy } else { 0.0 };
+                let rounding = if pair.end.counts() { digits * f64::EPSILON * stored } else { 0.0 };
                 each(Push { force: pair.on_body().force.norm(), gap: *gap, rounding });
             }
             Load::Potential(potential) => {

@@ -110,7 +110,7 @@ fn descend(
     let mut part = 1.0;
     for _ in 0..MOST_HALVINGS {
         if let Ok(next) = Expansion::about(laws, halves, expansion.moved(part, step), room)
-            && (next.energy <= expansion.energy * (1.0 + ROUNDING) || step.decrement < NEAR)
+            && (next.mean.energy <= expansion.mean.energy * (1.0 + ROUNDING) || step.decrement < NEAR)
         {
             return Some(next);
         }

@@ -11,8 +11,10 @@ use nalgebra::ArrayStorage;
 pub struct PairLoads {
     /// (f, M) on A and on B.
     pub on: [Loads; 2],
-    /// U [J].
+    /// U, with what adhesion stores [J].
     pub energy: f64,
+    /// The sum of what each power of the gap stores, without signs [J]: the digits of the energy are those of it.
+    pub stored: f64,
     /// The powers [W] of the laws on both bodies.
     pub powers: [f64; LawKind::COUNT],
     /// The width of the slab between the bodies along the normal [m].

@@ -10,8 +10,9 @@
 //! the last of which is what |n| = 1 brings, since L + (ν−1) log|y| does not change along y. K is positive.
 
 use super::fault::PairFault;
-use super::laws::{PairLaws, raised};
-use super::placed::Placed;
+use super::laws::PairLaws;
+use super::mean::Mean;
+use super::placed::{Placed, Switch};
 use super::plane::Plane;
 use super::side::{Half, Potential};
 use super::{Mat34, Vec4};
@@ -23,21 +24,17 @@ use nalgebra::{Cholesky, Const};
 #[derive(Debug, Clone)]
 pub(super) struct Expansion {
     pub plane: Plane,
-    /// U [J].
-    pub energy: f64,
-    potentials: [Potential; 2],
-    /// s.
-    parts: [f64; 2],
+    pub potentials: [Potential; 2],
+    /// U, s and q.
+    pub mean: Mean,
     /// The directions in which n turns.
-    tangents: [Vec3; 2],
+    pub tangents: [Vec3; 2],
     /// ρ.
     slopes: [Vec3; 2],
     /// r.
     gradient: Vec3,
     /// K.
-    curvature: Cholesky<f64, Const<3>>,
-    /// q.
-    power: f64,
+    pub curvature: Cholesky<f64, Const<3>>,
 }
 
 /// A Newton step of the plane, whole.
@@ -60,6 +57,10 @@ pub(super) struct Change {
     pub first: [Vec4; 2],
     /// δ log λ.
     pub weights: [f64; 2],
+    /// δ log U.
+    pub growth: f64,
+    /// What the plane moves by.
+    pub plane: Vec3,
 }
 
 /// Two unit vectors across n.
@@ -74,19 +75,12 @@ impl Expansion {
     /// # Errors
     /// [`PairFault`] if it does not separate the bodies, or a potential is no number.
     pub fn about(laws: &PairLaws, halves: [&Half; 2], plane: Plane, room: &mut [Moments]) -> Result<Self, PairFault> {
-        let power = 0.5 / (laws.repulsion.exponent - 1.0);
         let tangents = tangents(&plane.normal);
         let [above, below] = halves;
         let potentials = [above.potential(laws, &plane, room)?, below.potential(laws, &plane, room)?];
-        // The lower one has the larger s; their ratio may be too small for a number, not too large.
-        let [low, high] = if potentials[0].value <= potentials[1].value { [0, 1] } else { [1, 0] };
-        let mut parts = halves.map(|half| half.root_share);
-        parts[high] *= libm::exp(power * libm::log(potentials[low].value / potentials[high].value));
-        let parts = parts.map(|part| part / (parts[0] + parts[1]));
-        // U = U_i (s_i²/w_i)^(ν−1), of the side whose part is the larger.
-        let larger = usize::from(parts[1] > parts[0]);
-        let squeezed = (parts[larger] / halves[larger].root_share).powi(2);
-        let energy = potentials[larger].value * raised(squeezed, laws.repulsion.exponent - 1.0);
+        let values = potentials.each_ref().map(|potential| potential.value);
+        let mean = Mean::of(values, halves.map(|half| half.root_share), laws.repulsion.exponent);
+        let Mean { parts, power, .. } = mean;
         let slopes = [0, 1].map(|i| -halves[i].by_plane(&tangents, &potentials[i].first) / potentials[i].value);
         let gradient: Vec3 = parts[0] * slopes[0] + parts[1] * slopes[1];
         let bent = laws.repulsion.exponent - 1.0;
@@ -96,7 +90,7 @@ impl Expansion {
             curvature += parts[i] * (own - (1.0 + power) * slopes[i] * slopes[i].transpose());
         }
         let curvature = curvature.cholesky().ok_or(PairFault::NotFound { decrement: f64::NAN })?;
-        Ok(Self { plane, energy, potentials, parts, tangents, slopes, gradient, curvature, power })
+        Ok(Self { plane, potentials, mean, tangents, slopes, gradient, curvature })
     }
 
     /// The step to where the gradient of the expansion vanishes.
@@ -124,7 +118,7 @@ impl Expansion {
 
     /// The smaller s.
     pub fn least_part(&self) -> f64 {
-        self.parts[0].min(self.parts[1])
+        self.mean.parts[0].min(self.mean.parts[1])
     }
 
     /// The plane in balance, as if this one were.
@@ -132,48 +126,43 @@ impl Expansion {
         Placed {
             plane: self.plane,
             tangents: self.tangents,
-            energy: self.energy,
+            energy: self.mean.energy,
             first: [0, 1].map(|i| self.potentials[i].first),
-            weights: [0, 1].map(|i| self.parts[i] * self.energy / self.potentials[i].value),
-            switching: 0.0,
+            weights: [0, 1].map(|i| self.mean.parts[i] * self.mean.energy / self.potentials[i].value),
+            switch: Switch::NONE,
         }
     }
 
     /// The plane after a step, and what is exchanged there, in first order; U, which is least there, changes in second.
     pub fn placed_after(&self, halves: [&Half; 2], step: &Step) -> Placed {
         let plane = self.moved(1.0, step);
-        let Placed { energy, first, weights, switching, .. } = self.placed();
+        let Placed { energy, first, weights, switch, .. } = self.placed();
         let heights = halves.map(|half| self.heights_after(half, &step.by));
         let growth = self.growth(&heights);
-        let mean = self.mean(growth);
+        let mean = self.mean.along(growth);
         Placed {
             plane,
             tangents: tangents(&plane.normal),
             energy,
             first: [0, 1].map(|i| first[i] - self.potentials[i].second * heights[i]),
-            weights: [0, 1].map(|i| weights[i] * (1.0 + (1.0 + self.power) * (mean - growth[i]))),
-            switching,
+            weights: [0, 1].map(|i| weights[i] * (1.0 + (1.0 + self.mean.power) * (mean - growth[i]))),
+            switch,
         }
     }
 
     /// δn, given what the plane moves by.
-    fn turned(&self, by: &Vec3) -> Vec3 {
+    pub fn turned(&self, by: &Vec3) -> Vec3 {
         self.tangents[0] * by.x + self.tangents[1] * by.y
     }
 
     /// δz of a side.
-    fn heights_after(&self, half: &Half, by: &Vec3) -> Vec4 {
+    pub fn heights_after(&self, half: &Half, by: &Vec3) -> Vec4 {
         half.heights_by(&self.turned(by), by.z)
     }
 
     /// δ log U_i, given δz.
-    fn growth(&self, heights: &[Vec4; 2]) -> [f64; 2] {
+    pub fn growth(&self, heights: &[Vec4; 2]) -> [f64; 2] {
         [0, 1].map(|i| -self.potentials[i].first.dot(&heights[i]) / self.potentials[i].value)
-    }
-
-    /// δ log U, given δ log U_i.
-    fn mean(&self, growth: [f64; 2]) -> f64 {
-        self.parts[0] * growth[0] + self.parts[1] * growth[1]
     }
 
     /// A change of the coordinates of both, (δq_A, δq_B), with that of the plane in balance, which this one is; δ log
@@ -181,7 +170,7 @@ impl Expansion {
     pub fn along(&self, halves: [&Half; 2], change: [&Mat34; 2], switching: f64) -> Change {
         let own = [0, 1].map(|i| halves[i].sign * change[i].tr_mul(&self.plane.normal));
         let at_rest = self.growth(&own);
-        let mean_at_rest = self.mean(at_rest);
+        let mean_at_rest = self.mean.along(at_rest);
         let mut right = Vec3::zeros();
         for i in 0..2 {
             let Potential { value, first, second } = &self.potentials[i];
@@ -189,16 +178,18 @@ impl Expansion {
             let tilted = Vec3::new(self.tangents[0].dot(&turned), self.tangents[1].dot(&turned), 0.0);
             let slope = (halves[i].by_plane(&self.tangents, &(second * own[i])) - tilted) / *value
                 - self.slopes[i] * at_rest[i];
-            right += self.parts[i] * (slope - self.power * (at_rest[i] - mean_at_rest) * self.slopes[i]);
+            right += self.mean.parts[i] * (slope - self.mean.power * (at_rest[i] - mean_at_rest) * self.slopes[i]);
         }
         let moved = -self.curvature.solve(&right);
         let heights = [0, 1].map(|i| own[i] + self.heights_after(halves[i], &moved));
         let by_side = self.growth(&heights);
-        let growth = self.mean(by_side);
+        let growth = self.mean.along(by_side);
         Change {
             normal: self.turned(&moved),
             first: [0, 1].map(|i| -(self.potentials[i].second * heights[i])),
-            weights: by_side.map(|side| (1.0 + self.power) * (growth - side) + switching * growth),
+            weights: by_side.map(|side| (1.0 + self.mean.power) * (growth - side) + switching * growth),
+            growth,
+            plane: moved,
             heights,
         }
     }

@@ -1,20 +1,27 @@
 //! What acts between two bodies, and the moments of their surfaces that it needs.
 
-use crate::contact::{AreaMeasure, ContactLaw, Damping, Friction, LawKind, Repulsion};
-use crate::surface::{MomentPlan, request};
+use super::pull::Pull;
+use crate::contact::{Adhesion, AreaMeasure, ContactLaw, Damping, Friction, LawKind, Repulsion};
+use crate::surface::{Kernel, MomentPlan, MomentRequest, request};
 
-/// The laws between two bodies: a repulsion, which places the plane, and what resists their motion.
+/// The laws between two bodies: what places the plane, what pulls beside it, and what resists their motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairLaws {
     /// In which measure of area the tractions are given.
     pub measure: AreaMeasure,
-    /// What places the plane.
+    /// What places the plane: the repulsion, without one what an adhesion repels by.
     pub repulsion: Repulsion,
+    /// Whose force that is.
+    pub(super) placed_by: LawKind,
+    /// What else acts along the normal: adhesion, but for what of it places the plane.
+    pub(super) pull: Option<Pull>,
     /// α d₀^ν.
     pub(super) coefficient: f64,
     laws: Vec<ContactLaw>,
     /// Of d^(1−ν), d^−ν and d^−(ν+1).
     pub(super) placing: MomentPlan,
+    /// Of d^−(ν+2), to third order.
+    pub(super) bent: MomentPlan,
     pub(super) viscous: Vec<ViscousLaw>,
     /// d^−ν′ of each viscous law.
     pub(super) resisting: MomentPlan,
@@ -46,17 +53,13 @@ pub enum PairLawsError {
     /// Nothing places the plane.
     #[error("no repulsion")]
     NoRepulsion,
-    /// The potential does not grow enough towards the plane for it to stay off both bodies.
-    #[error("repulsion has the exponent {exponent}")]
+    /// A potential does not grow enough towards the plane for it to stay off both bodies.
+    #[error("{} has the exponent {exponent}", .kind.name())]
     TooWeak {
+        /// Whose potential: of adhesion its attraction.
+        kind: LawKind,
         /// ν < 2.
         exponent: f64,
-    },
-    /// A law that is not there between bodies.
-    #[error("no {} between bodies", .kind.name())]
-    Missing {
-        /// Its kind.
-        kind: LawKind,
     },
     /// A measure that is not there between bodies.
     #[error("no such measure between bodies")]
@@ -93,14 +96,15 @@ impl PairLaws {
     /// Joins the laws between two bodies.
     ///
     /// # Errors
-    /// [`PairLawsError`]: without repulsion, with one of ν < 2, with adhesion, or per deformed area with a potential.
+    /// [`PairLawsError`]: without repulsion and adhesion, with one of ν < 2, or per deformed area with a potential.
     pub fn new(measure: AreaMeasure, laws: Vec<ContactLaw>) -> Result<Self, PairLawsError> {
-        let mut placing = None;
+        let (mut repelling, mut adhesion) = (None, None);
         let mut viscous = Vec::new();
         let (mut values, mut slopes) = (Vec::new(), Vec::new());
         for law in &laws {
             match law {
-                ContactLaw::Repulsion(repulsion) => placing = Some(*repulsion),
+                ContactLaw::Repulsion(repulsion) => repelling = Some(*repulsion),
+                ContactLaw::Adhesion(law) => adhesion = Some(*law),
                 ContactLaw::Damping(Damping { exponent, .. }) | ContactLaw::Friction(Friction { exponent, .. }) => {
                     let coefficient: f64 = law.terms().iter().flatten().map(|term| term.coefficient).sum();
                     if coefficient == 0.0 {
@@ -111,13 +115,21 @@ impl PairLaws {
                     let (kind, mu, release) = (law.kind(), law.mu(), law.release());
                     viscous.push(ViscousLaw { kind, coefficient, exponent: *exponent, mu, release, value, slopes });
                 }
-                ContactLaw::Adhesion(_) => return Err(PairLawsError::Missing { kind: LawKind::Adhesion }),
             }
         }
-        let repulsion = placing.filter(|law| law.alpha > 0.0).ok_or(PairLawsError::NoRepulsion)?;
+        let repelling = repelling.filter(|law| law.alpha > 0.0);
+        let adhesion = adhesion.filter(|law: &Adhesion| law.beta > 0.0);
+        if let Some(exponent) =
+            adhesion.map(|law| law.attractive_exponent).filter(|exponent| *exponent < LEAST_EXPONENT)
+        {
+            return Err(PairLawsError::TooWeak { kind: LawKind::Adhesion, exponent });
+        }
+        let placed_by = if repelling.is_some() { LawKind::Repulsion } else { LawKind::Adhesion };
+        let repulsion = repelling.or_else(|| adhesion.as_ref().map(repelling_part));
+        let repulsion = repulsion.ok_or(PairLawsError::NoRepulsion)?;
         let exponent = repulsion.exponent;
         if exponent < LEAST_EXPONENT {
-            return Err(PairLawsError::TooWeak { exponent });
+            return Err(PairLawsError::TooWeak { kind: LawKind::Repulsion, exponent });
         }
         if measure == AreaMeasure::DeformedAreaPotential {
             return Err(PairLawsError::Measure);
@@ -129,9 +141,12 @@ impl PairLaws {
         Ok(Self {
             measure,
             repulsion,
+            placed_by,
+            pull: adhesion.map(|law| Pull::new(&law, placed_by)),
             coefficient: repulsion.term().coefficient,
             laws,
             placing: MomentPlan::new(placing),
+            bent: MomentPlan::new(vec![MomentRequest { kernel: Kernel::Power(exponent + 2.0), order: 3 }]),
             viscous,
             resisting: MomentPlan::new(values),
             resisting_slopes: MomentPlan::new(slopes),
@@ -156,6 +171,11 @@ impl PairLaws {
         let mean: f64 = (0..2).map(|i| shares[i] * libm::pow(areas[i], -1.0 / (exponent - 1.0))).sum();
         density * libm::pow(mean, 1.0 - exponent)
     }
+}
+
+/// β (d/d₀)^−ν_r of an adhesion.
+fn repelling_part(law: &Adhesion) -> Repulsion {
+    Repulsion { alpha: law.beta, exponent: law.repulsive_exponent, reference_gap: law.reference_gap }
 }
 
 /// xᵖ; by products where p is a small integer.

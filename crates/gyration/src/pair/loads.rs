@@ -1,6 +1,6 @@
 //! What two bodies that meet do to each other.
 //!
-//!   (f | M)_i = σ_i λ_i n⊗a_i + damping + friction
+//!   (f | M)_i = σ_i λ_i n⊗a_i + adhesion + damping + friction
 //!
 //! The plane is in balance, so that the wrenches of the two are opposite; computed apart they differ by rounding, which
 //! near contact is more than that of the forces. B therefore takes exactly what A leaves, about a point of the plane.
@@ -11,6 +11,7 @@ use super::fault::PairFault;
 use super::form::PairForm;
 use super::gjk::separate;
 use super::plane::Guess;
+use super::pulled::Pulled;
 use super::side::{Half, Side};
 use super::state::{PairScratch, PairState, ViscousMoments};
 use crate::contact::LawKind;
@@ -23,16 +24,36 @@ impl PairState<'_> {
     pub fn powers(&self, repulsion: &[Mat34; 2]) -> [f64; LawKind::COUNT] {
         let rates = self.halves.each_ref().map(Half::rates);
         let mut powers = [0.0; LawKind::COUNT];
-        powers[LawKind::Repulsion as usize] = repulsion[0].dot(&rates[0]) + repulsion[1].dot(&rates[1]);
+        powers[self.pair.laws.placed_by as usize] = repulsion[0].dot(&rates[0]) + repulsion[1].dot(&rates[1]);
         powers
+    }
+
+    /// (f | M) of adhesion on a side, as far as it is within reach; none without adhesion.
+    fn adhesion(&self, side: usize) -> Option<Mat34> {
+        let Pulled { energy, on, .. } = self.pulled.as_ref()?;
+        let switch = &self.placed.switch;
+        Some(switch.value * on[side] + switch.lift * *energy * self.repulsion(side))
+    }
+
+    /// Adds adhesion to (f | M) on both sides and to the powers of the laws [W].
+    pub fn add_adhesion(&self, on: &mut [Mat34; 2], powers: &mut [f64; LawKind::COUNT]) {
+        for (side, on) in on.iter_mut().enumerate() {
+            let Some(adhesion) = self.adhesion(side) else { return };
+            powers[LawKind::Adhesion as usize] += adhesion.dot(&self.halves[side].rates());
+            *on += adhesion;
+        }
     }
 
     /// What is exchanged, given (f | M) on both sides and the powers of the laws [W].
     pub fn exchange(&self, on: [Mat34; 2], powers: [f64; LawKind::COUNT]) -> PairLoads {
         let plane = &self.placed.plane;
+        let faded = |store: fn(&Pulled) -> f64| {
+            self.pulled.as_ref().map_or(0.0, |pulled| self.placed.switch.value * store(pulled))
+        };
         PairLoads {
             on: self.opposite(on),
-            energy: self.placed.energy,
+            energy: self.placed.energy + faded(|pulled| pulled.energy),
+            stored: self.placed.energy + faded(|pulled| pulled.stored),
             powers,
             gap: self.halves.iter().map(|half| half.smallest_gap(plane).0).sum(),
             normal: plane.normal,
@@ -87,6 +108,7 @@ impl PairLoads {
         let state = PairState::new(pair, sides, guess, scratch)?;
         let mut on = [state.repulsion(0), state.repulsion(1)];
         let mut powers = state.powers(&on);
+        state.add_adhesion(&mut on, &mut powers);
         state.each_mediator(ViscousMoments::Values, scratch, |_, _, mediator, _| {
             powers[mediator.kind as usize] += mediator.power();
             on[0] += mediator.loads(0);

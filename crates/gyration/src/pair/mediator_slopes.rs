@@ -15,7 +15,7 @@ use super::expansion::Change;
 use super::laws::ViscousLaw;
 use super::mediator::{Mediator, Shares, along, combined, from_foot, uniform, upright};
 use super::opening::{Opening, SideChange};
-use super::side::joined;
+use super::side::{contracted, joined};
 use super::state::PairState;
 use super::{Mat4, Mat34, Vec4};
 use crate::contact::{LawKind, Sliding};
@@ -62,13 +62,7 @@ impl Slope {
 
     /// The change with z.
     fn along(&self, heights: &Vec4) -> Mat4 {
-        let Moments { zeroth, first, second, third } = &self.raised;
-        let (height, direction) = (heights[0], Vec3::new(heights[1], heights[2], heights[3]));
-        joined(
-            height * zeroth + direction.dot(first),
-            &(height * first + second * direction),
-            &(height * second + third.contract(&direction)),
-        )
+        contracted(&self.raised, heights)
     }
 }
 

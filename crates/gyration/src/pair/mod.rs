@@ -16,6 +16,8 @@
 //! |---------------|-----------------------------------------------------------------|
 //! | `laws`        | what acts between two bodies, and the moments that it needs      |
 //! | `form`        | laws, reach and radii of two parts of bodies                    |
+//! | `pull`        | adhesion, as powers of the gap beside what places the plane      |
+//! | `held`        | the gap at which faces that adhere hold each other               |
 //! | `reach`       | where the force of a pair begins                                |
 //! | `side`        | one of the bodies: its gaps, and its moments X̃ and X̃⊗X̃          |
 //! | `fault`       | why there is no plane between two bodies                         |
@@ -23,12 +25,15 @@
 //! | `deepest`     | the shortest way apart of these                                 |
 //! | `gjk`         | a plane between them to begin with, guessed or found             |
 //! | `plane`       | a plane, and where it may be                                    |
+//! | `mean`        | U of both sides from U of each                                  |
 //! | `expansion`   | log U about a plane, to second order                            |
 //! | `equilibrium` | the plane of least potential, by Newton's method on log U        |
 //! | `placed`      | the plane in balance, and where its force begins                 |
 //! | `exchange`    | loads, derivatives and slab, as they are told                   |
 //! | `balls`       | the plane of two balls, their loads and derivatives             |
 //! | `state`       | a pair whose plane is found, and what both ends have of it       |
+//! | `pulled`      | adhesion at the plane that something else places                |
+//! | `pulled_slopes` | how this changes with the places of both                      |
 //! | `mediator`    | damping and friction against the velocities of the plane        |
 //! | `mediator_slopes` | how these change with the places of both                    |
 //! | `opening`     | damping that hardly pulls on what recedes                       |
@@ -43,14 +48,19 @@ mod expansion;
 mod fault;
 mod form;
 mod gjk;
+mod held;
 mod laws;
 mod loads;
+mod mean;
 mod mediator;
 mod mediator_slopes;
 mod opening;
 mod overlap;
 mod placed;
 mod plane;
+mod pull;
+mod pulled;
+mod pulled_slopes;
 mod reach;
 mod side;
 mod slopes;

@@ -4,7 +4,8 @@
 //!
 //! W the weight of the lighter one, μ the reduced mass, v the largest relative speed of the bodies at the start. F and
 //! U are those of two balls, and for other shapes those of the bound U_m (`laws`), above which no pair of surfaces is:
-//! the gap of faces with the whole surfaces, and more than the gap of corners. Source: `docs/theory-meetings.md`.
+//! the gap of faces with the whole surfaces, and more than the gap of corners. Of bodies that adhere g₀ is no less than
+//! the gap at which faces hold each other. Source: `docs/theory-meetings.md`.
 
 use super::balls::Balls;
 use super::laws::PairLaws;
@@ -86,7 +87,7 @@ impl Reach {
 
     /// So many gaps of two bodies [m].
     pub fn of_gaps(falling: &Falling, laws: &PairLaws, bodies: [Mass; 2]) -> f64 {
-        GAPS * falling.contact_gap(laws, bodies)
+        GAPS * falling.contact_gap(laws, bodies).max(laws.held_gap().unwrap_or(0.0))
     }
 
     /// Where the force of two bodies begins. U_c at so many gaps is that of two balls, if they are; else that of U_m.

@@ -55,6 +55,17 @@ pub(super) struct Potential {
     pub second: Mat4,
 }
 
+impl Potential {
+    /// Of c d^−ν, from the moments of d^(1−ν), d^−ν and d^−(ν+1).
+    pub fn new(coefficient: f64, exponent: f64, [energy, force, stiffness]: [&Moments; 3]) -> Self {
+        Self {
+            value: coefficient / (exponent - 1.0) * energy.zeroth,
+            first: coefficient * force.joined_first(),
+            second: exponent * coefficient * joined(stiffness.zeroth, &stiffness.first, &stiffness.second),
+        }
+    }
+}
+
 /// ∫κ X̃⊗X̃ dA from its parts.
 pub(super) fn joined(zeroth: f64, first: &Vec3, second: &Mat3) -> Mat4 {
     let mut joined = Mat4::zeros();
@@ -63,6 +74,17 @@ pub(super) fn joined(zeroth: f64, first: &Vec3, second: &Mat3) -> Mat4 {
     joined.fixed_view_mut::<1, 3>(0, 1).copy_from(&first.transpose());
     joined.fixed_view_mut::<3, 3>(1, 1).copy_from(second);
     joined
+}
+
+/// ∫κ (X̃·z) X̃⊗X̃ dA, from moments up to the third.
+pub(super) fn contracted(moments: &Moments, z: &Vec4) -> Mat4 {
+    let Moments { zeroth, first, second, third } = moments;
+    let (height, direction) = (z[0], Vec3::new(z[1], z[2], z[3]));
+    joined(
+        height * zeroth + direction.dot(first),
+        &(height * first + second * direction),
+        &(height * second + third.contract(&direction)),
+    )
 }
 
 impl Side<'_> {
@@ -122,13 +144,8 @@ impl Half<'_> {
     /// The potential of a plane.
     pub fn potential(&self, laws: &PairLaws, plane: &Plane, room: &mut [Moments]) -> Result<Potential, GapClosed> {
         self.moments(plane, &laws.placing, room)?;
-        let (coefficient, exponent) = (laws.coefficient, laws.repulsion.exponent);
         let [energy, force, stiffness] = room else { unreachable!("the plan of a repulsion has three powers") };
-        Ok(Potential {
-            value: coefficient / (exponent - 1.0) * energy.zeroth,
-            first: coefficient * force.joined_first(),
-            second: exponent * coefficient * joined(stiffness.zeroth, &stiffness.first, &stiffness.second),
-        })
+        Ok(Potential::new(laws.coefficient, laws.repulsion.exponent, [energy, force, stiffness]))
     }
 
     /// (ṗ₀ | Ṗ).

@@ -10,6 +10,7 @@ use super::fault::PairFault;
 use super::form::PairForm;
 use super::mediator_slopes::Slope;
 use super::plane::Guess;
+use super::pulled_slopes::PulledSlopes;
 use super::side::Side;
 use super::state::{PairScratch, PairState, ViscousMoments};
 use crate::load::{COORDINATES, Mat12};
@@ -50,15 +51,26 @@ impl PairSlopes {
         if let Some(balls) = pair.balls(sides) {
             return balls?.slopes(&pair.laws, sides, pair.threshold, &mut scratch.axial, self);
         }
-        let (state, expansion) = PairState::expanded(pair, sides, guess, scratch)?;
+        let (state, expansion) = PairState::adhering(pair, sides, guess, scratch)?;
         let halves = state.halves.each_ref();
         let mut on = [state.repulsion(0), state.repulsion(1)];
         let mut powers = state.powers(&on);
+        state.add_adhesion(&mut on, &mut powers);
+        let adhesion = match &state.pulled {
+            Some(pulled) => Some(PulledSlopes::new(&pair.laws, pulled, halves, &expansion, scratch.take(1))?),
+            None => None,
+        };
         let mut directions = Direction::all(sides);
         let mut columns: [Option<Column>; BOTH] = std::array::from_fn(|_| {
             let direction = directions.next()?;
-            let change = expansion.along(halves, direction.places().each_ref(), state.placed.switching);
-            Some(Column { direction, change, sum: [0, 1].map(|side| state.repulsion_along(side, &change)) })
+            let places = direction.places();
+            let change = expansion.along(halves, places.each_ref(), state.placed.switch.bend);
+            let mut sum = [0, 1].map(|side| state.repulsion_along(side, &change));
+            if let Some(adhesion) = &adhesion {
+                let change = state.adhesion_along(adhesion, places.each_ref(), &change, &sum);
+                sum.iter_mut().zip(&change).for_each(|(sum, change)| *sum += change);
+            }
+            Some(Column { direction, change, sum })
         });
         let normal = &state.placed.plane.normal;
         let by_rate = &mut self.by_rate;

@@ -9,6 +9,7 @@ use super::laws::ViscousLaw;
 use super::mediator::{Mediator, Shares};
 use super::placed::Placed;
 use super::plane::{Guess, Plane};
+use super::pulled::Pulled;
 use super::side::{Half, SIGNS, Side, columns};
 use super::{Mat34, Vec4};
 use crate::contact::AreaMeasure;
@@ -38,6 +39,8 @@ pub(super) struct PairState<'a> {
     pub placed: Placed,
     /// The foot of the repulsion on the plane, from A's centre [m].
     pub foot: Vec3,
+    /// Adhesion, where there is any within reach.
+    pub pulled: Option<Pulled>,
 }
 
 impl PairScratch {
@@ -83,6 +86,9 @@ impl<'a> PairState<'a> {
         guess: Option<&Guess>,
         scratch: &mut PairScratch,
     ) -> Result<Self, PairFault> {
+        if pair.laws.pull.is_some() {
+            return Self::adhering(pair, sides, guess, scratch).map(|(state, _)| state);
+        }
         let halves = pair.halves(sides);
         let room = scratch.placing(pair);
         let placed = search(pair, halves.each_ref(), guess, room)?.placed(halves.each_ref());
@@ -106,6 +112,24 @@ impl<'a> PairState<'a> {
         Ok((Self::at(pair, halves, placed), expansion))
     }
 
+    /// The same with adhesion, which needs the expansion.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn adhering(
+        pair: &'a PairForm,
+        sides: [&'a Side; 2],
+        guess: Option<&Guess>,
+        scratch: &mut PairScratch,
+    ) -> Result<(Self, Expansion), PairFault> {
+        let (mut state, expansion) = Self::expanded(pair, sides, guess, scratch)?;
+        if let Some(pull) = pair.laws.pull.as_ref().filter(|_| !state.placed.is_out_of_reach()) {
+            let room = scratch.take(pull.values.requests().len());
+            state.pulled = Some(Pulled::new(pull, state.halves.each_ref(), &expansion, room)?);
+        }
+        Ok((state, expansion))
+    }
+
     /// At a plane in balance.
     fn at(pair: &'a PairForm, halves: [Half<'a>; 2], mut placed: Placed) -> Self {
         placed.switch(pair.threshold);
@@ -113,7 +137,7 @@ impl<'a> PairState<'a> {
         let center = halves[0].columns * first / first[0];
         let plane = &placed.plane;
         let foot = center - (center.dot(&plane.normal) - plane.offset) * plane.normal;
-        Self { pair, halves, placed, foot }
+        Self { pair, halves, placed, foot, pulled: None }
     }
 
     /// (f | M) of the repulsion on a side.
@@ -187,7 +211,7 @@ impl PairForm {
         let (state, expansion) = PairState::expanded(self, sides, guess, scratch)?;
         let halves = state.halves.each_ref();
         let rates = halves.map(Half::rates);
-        let change = expansion.along(halves, rates.each_ref(), state.placed.switching);
+        let change = expansion.along(halves, rates.each_ref(), state.placed.switch.bend);
         let (mut gaps, mut rates) = ([0.0; 2], [0.0; 2]);
         for (i, half) in halves.into_iter().enumerate() {
             let (gap, point) = half.smallest_gap(&state.placed.plane);

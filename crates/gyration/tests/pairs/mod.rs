@@ -1,6 +1,7 @@
 //! Two bodies and the plane between them: forces are the derivative of the potential, derivatives agree with
 //! differences, momenta and powers balance, and nothing depends on who is called A or where all of it stands.
 
+mod adhesion;
 mod overlaps;
 mod relations;
 mod values;

@@ -3,6 +3,7 @@
 //! A note is worth a line; a warning says that the answer may not be the one that was asked for. Nothing here changes a
 //! run, and all of it takes a time that grows as the number of bodies.
 
+mod cut;
 mod far;
 mod fluid;
 mod joined;
@@ -45,6 +46,7 @@ impl Remarks {
         remarks.warnings.extend(meshes::warnings(model));
         remarks.warnings.extend(stored::warning(model, start));
         remarks.warnings.extend(reaches::warnings(model, start));
+        remarks.warnings.extend(cut::warnings(model, start));
         remarks.warnings.extend(far::warning(model, start, rtol));
         remarks
     }

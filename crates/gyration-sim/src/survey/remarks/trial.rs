@@ -61,11 +61,21 @@ impl<'a> TrialPair<'a> {
         Some(self.width(&between.try_normalize(0.0)?)).filter(|width| *width > 0.0)
     }
 
-    /// What the repulsion stores where the slab has a width [J]; none where that cannot be told.
+    /// What the two store where the slab has a width [J]; none where that cannot be told.
     fn stored_at(&self, gap: f64, normal: &Vec3) -> Option<f64> {
         let mut motions = self.motions;
         motions[0].placement.position += (gap - self.width(normal)) * normal;
         stored((&self.form, self.parts), self.bodies, &motions).map(|loads| loads.energy)
+    }
+
+    /// The part of the energy that holds the two together which they still have where the slab is as wide as a reach
+    /// [m]; none without adhesion, or where that cannot be told.
+    pub fn held_beyond(&self, reach: f64) -> Option<f64> {
+        let [one, other] = &self.motions;
+        let normal = (one.placement.position - other.placement.position).try_normalize(0.0)?;
+        let held = self.stored_at(self.form.laws.held_gap()?, &normal)?;
+        let left = self.stored_at(reach, &normal)?;
+        (held < 0.0).then(|| left / held)
     }
 
     /// The smallest gap that the two come to [m]: what they begin at, if they turn back farther out; none where nothing

@@ -9,9 +9,11 @@
 //! nearly a straight line in the logarithm of a_A : a_B. Then U = U_A w_A^(1−ν) (s_A/Σ)^(1/q) and the force is −U
 //! (s_A/Σ) (log v_A)′.
 
+mod along;
 mod bound;
 mod moving;
 mod placed;
+mod pulled;
 #[cfg(test)]
 mod tests;
 mod viscous;

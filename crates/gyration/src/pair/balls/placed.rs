@@ -1,5 +1,6 @@
 //! Two balls whose plane is found: the slab between them, what they do to each other, and its derivatives.
 
+use super::along::Along;
 use super::{Balls, Pressed, Repelled, Stiffness};
 use crate::contact::LawKind;
 use crate::kinematics::Velocity;
@@ -12,6 +13,11 @@ use crate::pair::plane::Plane;
 use crate::pair::side::{SIGNS, Side};
 use crate::surface::AxialMoments;
 use crate::tensor::{Mat3, Vec3};
+
+/// f·v + M·Ṗ [W].
+fn power(on: &Loads, Velocity { velocity, gradient_rate }: &Velocity) -> f64 {
+    on.force.dot(velocity) + on.moment.dot(gradient_rate)
+}
 
 /// Two balls and their plane.
 #[derive(Debug, Clone, Copy)]
@@ -60,34 +66,50 @@ impl PlacedBalls<'_> {
     ) -> Result<PairLoads, PairFault> {
         let repelled = self.balls.repulsion(self.gaps)?;
         let switch = Switch::at(threshold, repelled.energy);
-        let mut loads = self.pushed(sides, &repelled, &switch);
+        let pushed = Along::of_repulsion(&repelled, &switch);
+        let (mut loads, _) = self.pushed(laws, sides, (&repelled, &switch), &pushed)?;
         self.resist(laws, sides, (&repelled, &switch), room, &mut loads);
         Ok(loads)
     }
 
-    /// What the repulsion does, given that at the gaps and how it begins.
-    fn pushed(&self, sides: [&Side; 2], repelled: &Repelled, switch: &Switch) -> PairLoads {
-        let Self { normal, gaps, .. } = self;
-        let Repelled { energy, force, balls, .. } = repelled;
-        let force = switch.slope * force;
-        let on = [0, 1].map(|i| Loads {
-            force: SIGNS[i] * force * normal,
-            moment: -force * balls[i].lever() * normal * sides[i].placement.gradient.tr_mul(normal).transpose(),
-        });
-        let power = |i: usize| {
-            let Velocity { velocity, gradient_rate } = sides[i].velocity;
-            on[i].force.dot(velocity) + on[i].moment.dot(gradient_rate)
+    /// What repulsion and adhesion do, given the former and how it begins, and both along the line of centres.
+    fn pushed(
+        &self,
+        laws: &PairLaws,
+        sides: [&Side; 2],
+        (repelled, switch): (&Repelled, &Switch),
+        repulsion: &Along,
+    ) -> Result<(PairLoads, Along), PairFault> {
+        let energy = switch.value * repelled.energy;
+        let mut loads = PairLoads {
+            on: self.on(sides, repulsion),
+            energy,
+            stored: energy,
+            powers: [0.0; LawKind::COUNT],
+            gap: self.gaps[0] + self.gaps[1],
+            normal: self.normal,
+            point: sides[0].placement.position + self.plane().offset * self.normal,
         };
-        let mut powers = [0.0; LawKind::COUNT];
-        powers[LawKind::Repulsion as usize] = power(0) + power(1);
-        PairLoads {
-            on,
-            energy: switch.value * energy,
-            powers,
-            gap: gaps[0] + gaps[1],
-            normal: *normal,
-            point: sides[0].placement.position + self.plane().offset * normal,
-        }
+        let power = |on: &[Loads; 2]| power(&on[0], sides[0].velocity) + power(&on[1], sides[1].velocity);
+        loads.powers[laws.placed_by as usize] = power(&loads.on);
+        let Some(pull) = laws.pull.as_ref().filter(|_| switch.slope > 0.0) else { return Ok((loads, *repulsion)) };
+        let pulled = self.pulled(pull, repelled)?;
+        let adhesion = pulled.within(repulsion, self.balls.growth(repelled), switch);
+        let on = self.on(sides, &adhesion);
+        loads.powers[LawKind::Adhesion as usize] += power(&on);
+        loads.on.iter_mut().zip(on).for_each(|(sum, on)| *sum += on);
+        loads.energy += switch.value * pulled.energy;
+        loads.stored += switch.value * pulled.stored;
+        Ok((loads, repulsion.plus(&adhesion)))
+    }
+
+    /// (f | M) of what acts along the line of centres.
+    fn on(&self, sides: [&Side; 2], along: &Along) -> [Loads; 2] {
+        let normal = &self.normal;
+        [0, 1].map(|i| Loads {
+            force: SIGNS[i] * along.force * normal,
+            moment: -along.moments[i] * normal * sides[i].placement.gradient.tr_mul(normal).transpose(),
+        })
     }
 
     /// The same with its derivatives, along motions of rigid bodies, in the place of derivatives that are zeros.
@@ -112,13 +134,19 @@ impl PlacedBalls<'_> {
         let Stiffness { stiffness, levers_by_gap, .. } = unswitched;
         // χ″ = bend χ′/U, and dU/dg = −F.
         let bend = -switch.bend * repelled.force * balls.growth(&repelled);
-        let (force, stiffness) = (switch.slope * repelled.force, switch.slope * (stiffness + bend));
+        let force_by_gap = switch.slope * (stiffness + bend);
+        let mut repulsion = Along { force_by_gap, ..Along::of_repulsion(&repelled, &switch) };
+        repulsion.moments_by_gap = [0, 1].map(|i| {
+            let lever = repelled.balls[i].lever();
+            force_by_gap * lever + repulsion.force * levers_by_gap[i]
+        });
+        let (loads, along) = self.pushed(laws, sides, (&repelled, &switch), &repulsion)?;
+        let Along { force, force_by_gap: stiffness, .. } = along;
         let by_place = &mut slopes.by_place;
         for side in 0..2 {
             let gradient = &sides[side].placement.gradient;
-            let (point, lever) = (gradient.tr_mul(normal), repelled.balls[side].lever());
-            let moment = force * lever;
-            let by_gap = stiffness * lever + force * levers_by_gap[side];
+            let point = gradient.tr_mul(normal);
+            let (moment, by_gap) = (along.moments[side], along.moments_by_gap[side]);
             for (axis, across) in Mat3::identity().column_iter().enumerate() {
                 let along = normal[axis];
                 let turned = (across - along * normal) / *distance;
@@ -137,8 +165,8 @@ impl PlacedBalls<'_> {
                 }
             }
         }
-        slopes.loads = self.pushed(sides, &repelled, &switch);
-        let push = [force, stiffness];
+        slopes.loads = loads;
+        let push = [repulsion.force, repulsion.force_by_gap];
         let pressed = Pressed { repelled: &repelled, switch: &switch, push, stiffness: &unswitched };
         self.resist_with_slopes(laws, sides, &pressed, room, slopes);
         Ok(())

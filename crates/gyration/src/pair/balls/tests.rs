@@ -1,6 +1,6 @@
 //! Two balls by their formula and by the general method, the slope of their energy, and Derjaguin's limit.
 
-use crate::contact::{AreaMeasure, ContactLaw, Damping, Friction, Repulsion};
+use crate::contact::{Adhesion, AreaMeasure, ContactLaw, Damping, Friction, LawKind, Repulsion};
 use crate::kinematics::{Placement, Quaternion, Velocity};
 use crate::load::{Loads, numbers};
 use crate::pair::{PairForm, PairLaws, PairLoads, PairScratch, PairSlopes, Side};
@@ -25,6 +25,11 @@ impl Meeting {
     fn resisting(radii: [f64; 2], exponent: f64, gap: f64, reach: Option<f64>, mut laws: Vec<ContactLaw>) -> Self {
         let repulsion = Repulsion { alpha: 3.0, exponent, reference_gap: 0.01 };
         laws.push(ContactLaw::Repulsion(repulsion));
+        Self::by(laws, radii, gap, reach)
+    }
+
+    /// With these laws.
+    fn by(laws: Vec<ContactLaw>, radii: [f64; 2], gap: f64, reach: Option<f64>) -> Self {
         let laws = Arc::new(PairLaws::new(AreaMeasure::ReferenceArea, laws).unwrap());
         let surfaces = radii.map(Surface::sphere);
         let closed = PairForm::new(laws, reach, surfaces.each_ref());
@@ -173,8 +178,59 @@ fn slopes_are_those_of_the_general_method() {
     assert!(worst < 1e-11);
 }
 
-/// Damping, friction or both, of exponents of their own; friction viscous, and with bounds that it meets and exceeds;
-/// damping one-sided.
+/// Adhesion with a repulsion and without, its plane placed by the one or by what it repels by itself.
+#[test]
+fn balls_adhere_as_the_general_method_says() {
+    let (mut loads, mut slopes) = (0.0_f64, 0.0_f64);
+    for (radii, [attractive, repulsive, exponent], gap, reach) in [
+        ([0.3, 0.3], [3.0, 9.0, 6.0], 0.02, None),
+        ([0.7, 0.2], [2.0, 4.0, 6.0], 0.02, None),
+        ([0.7, 0.2], [2.5, 6.5, 2.5], 0.3, Some(0.9)),
+        ([0.1, 4.0], [3.0, 9.0, 6.0], 0.01, Some(0.05)),
+        ([0.1, 4.0], [4.0, 8.0, 12.0], 0.05, None),
+    ] {
+        let adhesion =
+            Adhesion { beta: 7.0, attractive_exponent: attractive, repulsive_exponent: repulsive, reference_gap: 0.02 };
+        let adhesion = ContactLaw::Adhesion(adhesion);
+        let repulsion = ContactLaw::Repulsion(Repulsion { alpha: 3.0, exponent, reference_gap: 0.01 });
+        for laws in [vec![adhesion], vec![repulsion, adhesion]] {
+            let meeting = Meeting::by(laws, radii, gap, reach);
+            let sides = meeting.sides();
+            let [closed, general] = meeting
+                .pairs
+                .each_ref()
+                .map(|pair| PairSlopes::integrate(pair, sides.each_ref(), None, &mut PairScratch::default()).unwrap());
+            let size = repulsive.max(exponent) * closed.loads.stored / gap;
+            for (own, other) in closed.loads.on.iter().zip(&general.loads.on) {
+                loads = loads.max((numbers(own) - numbers(other)).amax() / size);
+            }
+            loads = loads.max((closed.loads.energy - general.loads.energy).abs() / closed.loads.stored);
+            loads = loads.max((closed.loads.stored / general.loads.stored - 1.0).abs());
+            for kind in LawKind::ALL {
+                let power = |slopes: &PairSlopes| slopes.loads.powers[kind as usize];
+                loads = loads.max((power(&closed) - power(&general)).abs() / size);
+            }
+            assert_eq!(closed.loads, meeting.loads()[0]);
+            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let gradient = &meeting.placements[j].gradient;
+                let motions = (0..3).flat_map(|k| {
+                    let unit = Vec3::ith(k, 1.0);
+                    [(unit, Mat3::zeros()), (Vec3::zeros(), gradient * cross_matrix(&unit))]
+                });
+                for (position, gradient) in motions {
+                    let moved = numbers(&Loads { force: position, moment: gradient });
+                    let [closed, general] = [&closed, &general].map(|slopes| slopes.by_place[i][j] * moved);
+                    slopes = slopes.max((closed - general).amax() * gap / size);
+                }
+            }
+        }
+    }
+    println!("balls that adhere: loads off by {loads:.1e}, slopes by {slopes:.1e}");
+    assert!(loads < 1e-11 && slopes < 1e-10);
+}
+
+/// Damping, friction or both, of exponents of their own; friction viscous, and with bounds that it meets and
+/// exceeds; damping one-sided.
 fn resistances(exponents: [f64; 2]) -> [Vec<ContactLaw>; 6] {
     let [one, other] = exponents;
     let damping = |release| ContactLaw::Damping(Damping { beta: 5e4, exponent: one, reference_gap: 0.01, release });
