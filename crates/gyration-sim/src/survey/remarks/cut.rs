@@ -22,7 +22,7 @@ fn warning(model: &Model, start: &State, rule: usize) -> Option<String> {
     let pair = two.pairs(model).next()?;
     let reach = pair.form.reach?;
     let part = TrialPair::of(model, start, &two, &pair).held_beyond(reach).filter(|part| *part > MOST)?;
-    let [one, other] = pair.bodies.map(|body| model.name(body));
+    let [one, other] = pair.parties.map(|party| model.party_name(party));
     let (reach, part) = (significant(reach, 3), significant(part, 2));
     Some(format!(
         "at the reach of {reach} m \"{one}\" and \"{other}\" would still have {part} of the energy by which they hold \

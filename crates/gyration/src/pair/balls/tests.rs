@@ -229,8 +229,8 @@ fn balls_adhere_as_the_general_method_says() {
     assert!(loads < 1e-11 && slopes < 1e-10);
 }
 
-/// Damping, friction or both, of exponents of their own; friction viscous, and with bounds that it meets and
-/// exceeds; damping one-sided.
+/// Damping, friction or both, of exponents of their own; friction viscous, and with bounds that it meets and exceeds;
+/// damping one-sided.
 fn resistances(exponents: [f64; 2]) -> [Vec<ContactLaw>; 6] {
     let [one, other] = exponents;
     let damping = |release| ContactLaw::Damping(Damping { beta: 5e4, exponent: one, reference_gap: 0.01, release });
