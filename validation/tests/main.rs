@@ -79,6 +79,7 @@ mod row15_stiff_restitution;
 mod row16_sliding;
 mod row16_soft_sliding;
 mod row17_pull_off;
+mod row17_pull_off_of_bodies;
 mod row18_sliding_ball_rolls;
 mod row19_rocking_mode;
 mod row20_rocking_block;
