@@ -23,6 +23,7 @@ mod reach_change;
 pub(crate) mod remarks;
 mod rest;
 mod slip;
+mod slipping;
 mod springs;
 mod strained;
 mod text;
