@@ -12,6 +12,7 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+mod attributes;
 mod bands;
 #[cfg(feature = "study")]
 pub mod calibration;

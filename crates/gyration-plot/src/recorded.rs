@@ -1,16 +1,16 @@
 //! What pictures need of a recording: bodies and supports as they were described, and samples thinned to what can be
 //! seen.
 
+use crate::attributes::{MotionPicture, attribute, described, motion};
 use crate::classes::BodyClasses;
 use crate::draw::Point;
 use crate::error::PlotError;
 use crate::solids::SolidSupportPicture;
 use crate::thin::Thinner;
-use gyration::support::{MotionPart, Support, SupportMotion};
+use gyration::support::Support;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_record::Recording;
 use gyration_record::export::bodies_with_outlines;
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
@@ -83,45 +83,6 @@ struct SupportPicture {
     origin: [f64; 3],
     normal: [f64; 3],
     motion: Option<MotionPicture>,
-}
-
-#[derive(Deserialize)]
-#[serde(untagged)]
-pub(crate) enum MotionPicture {
-    One(MotionPartPicture),
-    Several(Vec<MotionPartPicture>),
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum MotionPartPicture {
-    Velocity([f64; 3]),
-    Oscillate { direction: [f64; 3], amplitude: f64, frequency: f64, phase: f64 },
-    Rotate { axis: [f64; 3], point: [f64; 3], rate: f64 },
-}
-
-impl From<MotionPartPicture> for MotionPart {
-    fn from(picture: MotionPartPicture) -> Self {
-        match picture {
-            MotionPartPicture::Velocity(velocity) => Self::Velocity(velocity.into()),
-            MotionPartPicture::Oscillate { direction, amplitude, frequency, phase } => {
-                Self::Oscillation { direction: direction.into(), amplitude, frequency, phase }
-            }
-            MotionPartPicture::Rotate { axis, point, rate } => {
-                Self::Rotation { axis: axis.into(), point: point.into(), rate }
-            }
-        }
-    }
-}
-
-/// The motion that a recording describes.
-pub(crate) fn motion(picture: Option<MotionPicture>) -> SupportMotion {
-    let parts = match picture {
-        None => Vec::new(),
-        Some(MotionPicture::One(part)) => vec![part],
-        Some(MotionPicture::Several(parts)) => parts,
-    };
-    SupportMotion::new(parts.into_iter().map(MotionPart::from).collect())
 }
 
 impl From<SupportPicture> for Support {
@@ -248,17 +209,4 @@ impl<'a> RecordedScene<'a> {
             poses.map(|(p, g)| Pose { position: Vec3::from_column_slice(p), gradient: Mat3::from_row_slice(g) });
         Ok((time.data[0], poses.collect()))
     }
-}
-
-/// An attribute of the recording in a type of ours.
-pub(crate) fn attribute<T: DeserializeOwned>(recording: &Recording, name: &'static str) -> Result<T, PlotError> {
-    described(recording, name, recording.attributes().get(name).unwrap_or(&Value::Null))
-}
-
-fn described<T: DeserializeOwned>(recording: &Recording, name: &'static str, value: &Value) -> Result<T, PlotError> {
-    T::deserialize(value).map_err(|error| PlotError::Attribute {
-        path: recording.path().to_path_buf(),
-        name,
-        reason: error.to_string(),
-    })
 }

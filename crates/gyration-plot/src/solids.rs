@@ -1,8 +1,8 @@
 //! Supports with a shape as pictures have them: filled, at their true size, where their motion has carried them.
 
+use crate::attributes::{MotionPicture, attribute, motion};
 use crate::draw::Point;
 use crate::error::PlotError;
-use crate::recorded::{MotionPicture, attribute, motion};
 use gyration::support::SupportMotion;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_record::Recording;

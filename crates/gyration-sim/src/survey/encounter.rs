@@ -3,7 +3,7 @@
 //! F(s) is the force of the repulsion along the normal n [N] at a slab of width s between them, without velocity: F =
 //! −dU/ds as long as the plane keeps its normal, as between balls and between faces that lie opposite.
 
-use super::meetings::solids;
+use super::reach_change::solids;
 use gyration::Party;
 use gyration::contact::Deformation;
 use gyration::kinematics::{Placement, Velocity};

@@ -3,9 +3,8 @@
 //! The verdict is that of the sharper of the two features.
 
 use super::laws::LawSurvey;
-use super::reach_change::ReachChange;
+use super::reach_change::{ReachChange, solids};
 use crate::format::significant;
-use gyration::body::Solid;
 use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::neighbours::Pair;
@@ -79,11 +78,6 @@ impl MeetingSurvey {
             laws,
         }
     }
-}
-
-/// The solids of the two of a pair.
-pub(super) fn solids<'a>(model: &'a Model, pair: &Pair) -> [&'a Solid; 2] {
-    pair.parties.map(|party| model.solid_of(party).unwrap_or_else(|| unreachable!("a pair is between solids")))
 }
 
 /// The meetings as text, those with the same laws under one verdict; `pairs` of bodies meet, so many of them feel each

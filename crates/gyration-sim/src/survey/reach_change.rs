@@ -1,7 +1,7 @@
 //! What a reach changes of a pair: the gap at which the two come to rest or turn back.
 
-use super::meetings::solids;
 use gyration::Party;
+use gyration::body::Solid;
 use gyration::model::Model;
 use gyration::neighbours::Pair;
 use gyration::pair::{Falling, Mass, Reach};
@@ -42,4 +42,9 @@ impl ReachChange {
         let part = pair.form.change_of_gap(gap, surfaces)?;
         Some(Self { gap, part: if part < SMALL { part } else { f64::INFINITY } })
     }
+}
+
+/// The solids of the two of a pair.
+pub(super) fn solids<'a>(model: &'a Model, pair: &Pair) -> [&'a Solid; 2] {
+    pair.parties.map(|party| model.solid_of(party).unwrap_or_else(|| unreachable!("a pair is between solids")))
 }

@@ -4,7 +4,6 @@
 //! a rigid body, P⁻¹ and L of one that deforms, F = P G⁻¹ of one that contracts. Reading allocates only the first time.
 //! A body without inertia is still until `dynamics::inertialess` gives it the velocities of its balance.
 
-use super::parties::PartyAt;
 use crate::acting::PairEnd;
 use crate::affine::Gyration;
 use crate::body::{Affine, Body, BodyKind, Contractile, RigidInertia, Slots};
@@ -14,9 +13,8 @@ use crate::extended::{Extended, ExtendedVec3, Numbers};
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::kinematics::{Placement, Quaternion, Velocity};
 use crate::lattice::{Cell, HERE};
-use crate::load::Party;
 use crate::model::Model;
-use crate::neighbours::{NeighbourList, Pair};
+use crate::neighbours::NeighbourList;
 use crate::state::{BodyMotion, Turn, contraction_at};
 use crate::tensor::{Mat3, Vec3};
 
@@ -29,10 +27,10 @@ pub(crate) struct Motions {
     low: Vec<f64>,
     bodies: Vec<BodyInstant>,
     /// Of the supports with a shape.
-    supports: Vec<BodyMotion>,
+    pub(super) supports: Vec<BodyMotion>,
     near: NeighbourList,
     /// By the number of a listed pair: its place among those whose bodies are within reach of each other.
-    within: Vec<Option<usize>>,
+    pub(super) within: Vec<Option<usize>>,
 }
 
 /// The motion of one body.
@@ -68,7 +66,7 @@ pub struct MotionAt<'a> {
     pub(crate) numbers: Numbers<'a>,
     attitude: &'a Attitude,
     /// Where the other bodies are found.
-    motions: &'a Motions,
+    pub(super) motions: &'a Motions,
 }
 
 /// The kind of a body, with what it needs of its motion more than once.
@@ -154,22 +152,6 @@ impl Motions {
         Ok(())
     }
 
-    /// Finds which listed pairs are within reach: the others do nothing.
-    fn find_reached(&mut self, model: &Model) {
-        let mut within = std::mem::take(&mut self.within);
-        within.clear();
-        let mut count = 0;
-        within.extend(self.near.pairs().all().iter().map(|pair| {
-            let parties = self.parties(model, pair);
-            let cutoff = pair.form.cutoff().filter(|_| parties.iter().all(PartyAt::is_rigid));
-            cutoff.is_none_or(|cutoff| PartyAt::apart(&parties, pair.cell).norm() < cutoff).then(|| {
-                count += 1;
-                count - 1
-            })
-        }));
-        self.within = within;
-    }
-
     /// The place of a listed pair among those within reach, if it is one of them.
     pub fn place(&self, number: usize) -> Option<usize> {
         self.within[number]
@@ -202,16 +184,6 @@ impl Motions {
     #[inline]
     pub fn motion(&self, index: usize) -> &BodyMotion {
         &self.bodies[index].motion
-    }
-
-    /// The two of a pair of the model from whose state this was read.
-    #[inline]
-    pub fn parties<'a>(&'a self, model: &'a Model, pair: &Pair) -> [PartyAt<'a>; 2] {
-        pair.parties.map(|party| match party {
-            Party::Body(index) => PartyAt::Body(self.at(model, index)),
-            Party::SolidSupport(index) => PartyAt::Support(&model.solid_supports[index], &self.supports[index]),
-            Party::Support(_) | Party::Space => unreachable!("a pair is of bodies and supports with a shape"),
-        })
     }
 
     /// A body of the model from whose state this was read.
@@ -261,7 +233,7 @@ impl<'a> MotionAt<'a> {
 
     /// The pairs of bodies that may act on one another.
     pub(crate) fn near(&self) -> &'a NeighbourList {
-        &self.motions.near
+        self.motions.near()
     }
 
     /// The place of a listed pair among those within reach, if it is one of them.
@@ -272,11 +244,6 @@ impl<'a> MotionAt<'a> {
     /// Another body at the same time.
     pub(crate) fn beside(&self, index: usize) -> Self {
         self.motions.at(self.model, index)
-    }
-
-    /// The two of a pair at the same time.
-    pub(crate) fn parties_of(&self, pair: &Pair) -> [PartyAt<'a>; 2] {
-        self.motions.parties(self.model, pair)
     }
 
     /// How a support with a shape moves at this time.

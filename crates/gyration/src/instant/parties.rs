@@ -1,10 +1,13 @@
 //! The two of a pair at an instant: a body, and a body or a support with a shape.
 
-use super::motions::MotionAt;
+use super::motions::{MotionAt, Motions};
 use crate::body::{Solid, least_distance};
 use crate::contact::Deformation;
 use crate::kinematics::BodyMotion;
 use crate::lattice::Cell;
+use crate::model::Model;
+use crate::neighbours::Pair;
+use crate::party::Party;
 use crate::solid_support::SolidSupport;
 use crate::tensor::{Mat3, Vec3};
 
@@ -80,5 +83,40 @@ impl<'a> PartyAt<'a> {
             (Self::Body(one), Self::Support(_, motion)) => -one.place_from(&motion.placement.position),
             (Self::Support(_, motion), other) => other.motion().placement.position - motion.placement.position,
         }
+    }
+}
+
+impl Motions {
+    /// The two of a pair of the model from whose state this was read.
+    #[inline]
+    pub fn parties<'a>(&'a self, model: &'a Model, pair: &Pair) -> [PartyAt<'a>; 2] {
+        pair.parties.map(|party| match party {
+            Party::Body(index) => PartyAt::Body(self.at(model, index)),
+            Party::SolidSupport(index) => PartyAt::Support(&model.solid_supports[index], &self.supports[index]),
+            Party::Support(_) | Party::Space => unreachable!("a pair is of bodies and supports with a shape"),
+        })
+    }
+
+    /// Finds which listed pairs are within reach: the others do nothing.
+    pub(super) fn find_reached(&mut self, model: &Model) {
+        let mut within = std::mem::take(&mut self.within);
+        within.clear();
+        let mut count = 0;
+        within.extend(self.near().pairs().all().iter().map(|pair| {
+            let parties = self.parties(model, pair);
+            let cutoff = pair.form.cutoff().filter(|_| parties.iter().all(PartyAt::is_rigid));
+            cutoff.is_none_or(|cutoff| PartyAt::apart(&parties, pair.cell).norm() < cutoff).then(|| {
+                count += 1;
+                count - 1
+            })
+        }));
+        self.within = within;
+    }
+}
+
+impl<'a> MotionAt<'a> {
+    /// The two of a pair at the same time.
+    pub(crate) fn parties_of(&self, pair: &Pair) -> [PartyAt<'a>; 2] {
+        self.motions.parties(self.model, pair)
     }
 }
