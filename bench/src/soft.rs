@@ -55,8 +55,8 @@ pub fn free_cube(material: Material) -> (Model, State) {
 pub fn cube_over_table(material: Material, height: f64) -> (Model, State) {
     let laws = vec![
         ContactLaw::Repulsion(Repulsion { alpha: 0.03f64.powi(6), exponent: 6.0, reference_gap: 1.0 }),
-        ContactLaw::Damping(Damping { beta: 5e-5, exponent: 3.0, reference_gap: 1.0 }),
-        ContactLaw::Friction(Friction { beta: 5e-5, exponent: 3.0, reference_gap: 1.0 }),
+        ContactLaw::Damping(Damping { beta: 5e-5, exponent: 3.0, reference_gap: 1.0, release: None }),
+        ContactLaw::Friction(Friction { beta: 5e-5, exponent: 3.0, reference_gap: 1.0, mu: None }),
     ];
     cube(material, laws, height, -Vec3::z())
 }

@@ -97,10 +97,10 @@ fn a_four_bar_turns_in_the_time_of_its_reduced_equation() {
     let links = bar.links(start);
     let centers = FourBar::centers(&links);
     let mut scene = "time = { end = 1, sample = 1 }\nsolver = { rtol = 1e-12, atol = 1e-14 }\n".to_owned();
-    for k in 0..3 {
+    for (k, center) in centers.into_iter().enumerate() {
         let way = less(links.ends[k + 1], links.ends[k]);
         let turn = links.turns[k] * rate;
-        let arm = less(centers[k], if k == 2 { links.ends[3] } else { links.ends[k] });
+        let arm = less(center, if k == 2 { links.ends[3] } else { links.ends[k] });
         let base = if k == 1 { turned(links.ends[1]).map(|c| c * rate) } else { [0.0; 2] };
         let own = turned(arm);
         // From x to z is about −y.
@@ -110,8 +110,8 @@ fn a_four_bar_turns_in_the_time_of_its_reduced_equation() {
              orientation = {{ axis_angle = {{ axis = [0, -1, 0], angle = {angle:?} }} }}\n\
              angular_velocity = [0, {:?}, 0]\n\
              mass_properties = {{ mass = {}, euler_tensor = [[{inertia:e}, 0, 0], [0, 1e-4, 0], [0, 0, 1e-4]] }}\n",
-            centers[k][0],
-            centers[k][1],
+            center[0],
+            center[1],
             base[0] + turn * own[0],
             base[1] + turn * own[1],
             -turn,

@@ -197,8 +197,13 @@ fn a_cluster_keeps_energy_and_momenta() {
         };
         let (before, after) = (momenta(&experiment.start), momenta(&run.end));
         let case = Case { row: Some(17), name: "a cluster of four shapes that adhere", source: "conserved" }.by(name);
-        case.check("momentum, change over Σ|mv|", 0.0, (after.0 - before.0).norm() / before.2[0], 1e-13);
-        case.check("angular momentum, change over Σ|L|", 0.0, (after.1 - before.1).norm() / before.2[1], 1e-8);
+        case.check("momentum, change over the sum of its sizes", 0.0, (after.0 - before.0).norm() / before.2[0], 1e-13);
+        case.check(
+            "angular momentum, change over the sum of its sizes",
+            0.0,
+            (after.1 - before.1).norm() / before.2[1],
+            1e-8,
+        );
         case.check("energy, residual of the ledger", 0.0, run.relative_residual(), 1e-8);
         let pulled = run.column("energy.contact").iter().fold(0.0_f64, |least, energy| least.min(*energy));
         assert!(pulled < 0.0, "nothing pulls");

@@ -66,6 +66,7 @@ fn load(written: &file::Lattice, lattice: &Lattice, key: &Key, reporter: &mut Re
             if stress != stress.transpose() {
                 let message = "the stress is not symmetric, and the cell does not turn under it";
                 reporter.note(&key.key("stress"), message, "write the same across the diagonal");
+                return None;
             }
             let within = lattice.projector();
             if (within * stress * within - stress).amax() > ROUNDING * stress.amax() {
