@@ -33,8 +33,8 @@ impl Meeting {
         };
         let mut laws = vec![ContactLaw::Repulsion(Repulsion { alpha: 100.0, exponent: 6.0, reference_gap: 0.01 })];
         if viscous {
-            laws.push(ContactLaw::Damping(Damping { beta: 100.0, exponent: 6.0, reference_gap: 0.01 }));
-            laws.push(ContactLaw::Friction(Friction { beta: 100.0, exponent: 6.0, reference_gap: 0.01 }));
+            laws.push(ContactLaw::Damping(Damping { beta: 100.0, exponent: 6.0, reference_gap: 0.01, release: None }));
+            laws.push(ContactLaw::Friction(Friction { beta: 100.0, exponent: 6.0, reference_gap: 0.01, mu: None }));
         }
         let laws = Arc::new(PairLaws::new(AreaMeasure::DeformedArea, laws).expect("the laws place a plane"));
         let pair = PairForm::new(laws, None, [&surface, &surface]);

@@ -114,9 +114,9 @@ fn what_is_wrong_with_a_support_is_told_at_its_key() {
             "write a length",
         ),
         (
-            format!(
-                "[world]\ngravity = [0, 0, 0]\n[lattice]\ncell = [[1, 0, 0]]\n[[support]]\nname = \"peg\"\nshape = §{{ sphere = {{ radius = 0.1 }} }}\n"
-            ),
+            "[world]\ngravity = [0, 0, 0]\n[lattice]\ncell = [[1, 0, 0]]\n[[support]]\nname = \"peg\"\n\
+             shape = §{ sphere = { radius = 0.1 } }\n"
+                .to_owned(),
             "support.peg.shape",
             "do not see a support with a shape alike",
             "a plane",

@@ -159,7 +159,7 @@ fn turning_planes() -> Vec<Support> {
     let other = MotionPart::Rotation { axis: Vec3::x(), point: Vec3::new(0.0, 0.3, 0.0), rate: -0.4 };
     let [mut table, mut slope] = supports().try_into().unwrap();
     table.motion = SupportMotion::new(vec![turn, drift]);
-    slope.motion = SupportMotion::new([&slope.motion.parts()[..], &[other, turn]].concat());
+    slope.motion = SupportMotion::new([slope.motion.parts(), &[other, turn]].concat());
     vec![table, slope]
 }
 
