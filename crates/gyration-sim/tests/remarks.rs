@@ -47,6 +47,8 @@ fn bodies_that_no_contact_joins_are_told_in_one_line() {
     let two = remarks(&format!("{HEAD}{a}{b}"));
     assert_eq!(two.notes, ["\"a\" and \"b\" do not meet: no contact says so"]);
     assert!(two.warnings.is_empty() && recorded(&format!("{HEAD}{a}{b}")).is_empty());
+    let joint = "[[joint]]\nname = \"j\"\nbetween = [\"a\", \"b\"]\nkind = \"distance\"\n";
+    assert_eq!(remarks(&format!("{HEAD}{a}{b}{joint}")), Remarks::default());
     let three = remarks(&format!("{HEAD}{a}{b}{c}"));
     assert_eq!(three.notes, ["the 3 bodies do not meet one another: no contact says so"]);
     let one_of_three = remarks(&format!("{HEAD}{a}{b}{c}{}", between("a", "c", "")));

@@ -2,6 +2,7 @@
 
 use super::Remarks;
 use gyration::body::{Body, BodyKind, Solid};
+use gyration::joint::Joint;
 use gyration::model::Model;
 use gyration::neighbours::{Sphere, each_overlap};
 use gyration::pair::Overlap;
@@ -28,7 +29,10 @@ pub(super) fn remark(model: &Model, start: &State, remarks: &mut Remarks) {
     if meeting >= all {
         return;
     }
-    let apart = apart_for_ever(model, &solid).into_iter().filter(|pair| !meet(model, *pair));
+    // Links of a linkage are not expected to meet.
+    let is_solid = |pair: &[usize; 2]| pair.iter().all(|body| solid.binary_search(body).is_ok());
+    let linked = model.joints().iter().filter_map(Joint::bodies).map(sorted).filter(is_solid);
+    let apart = apart_for_ever(model, &solid).into_iter().chain(linked).filter(|pair| !meet(model, *pair));
     let mut known: HashSet<[usize; 2]> = apart.collect();
     let strangers = all.saturating_sub(meeting + known.len());
     let Some([one, other]) = first_stranger(model, &sorts, &known) else { return };
