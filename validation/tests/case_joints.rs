@@ -137,7 +137,8 @@ fn a_double_pendulum_moves_as_its_reduced_equations_do() {
     };
     let scene = |solver: &str, second: &str| {
         format!(
-            "time = {{ end = 3, sample = 0.5 }}\n{solver}{}{}[[joint]]\nname = \"upper\"\nbetween = [\"0\", \"space\"]\n\
+            "time = {{ end = 3, sample = 0.5 }}\n{solver}{}{}[[joint]]\nname = \"upper\"\n\
+             between = [\"0\", \"space\"]\n\
              kind = \"hinge\"\naxis = [0, 1, 0]\npoints = [[0, 0, {}], [0, 0, 0]]\n[[joint]]\nname = \"lower\"\n\
              between = [\"0\", \"1\"]\n{second}points = [[0, 0, {}], [0, 0, {}]]\n",
             body(0),

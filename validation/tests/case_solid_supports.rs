@@ -51,10 +51,12 @@ fn a_support_that_moves_throws_a_ball_back() {
     let (own, carried, mass) = (-1.5, 0.4, 2.0);
     let head = format!("world = {{ gravity = [0, 0, 0] }}\n{HEAD}{}", times(1.5, 1.5));
     let support = format!(
-        "[[support]]\nname = \"s\"\nshape = {{ sphere = {{ radius = 0.3 }} }}\nmotion = {{ velocity = [0, 0, {carried:?}] }}\n"
+        "[[support]]\nname = \"s\"\nshape = {{ sphere = {{ radius = 0.3 }} }}\n\
+         motion = {{ velocity = [0, 0, {carried:?}] }}\n"
     );
     let ball = format!(
-        "[[body]]\nname = \"a\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = {mass:?}\nposition = [0, 0, 1]\nvelocity = [0, 0, {own:?}]\n"
+        "[[body]]\nname = \"a\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = {mass:?}\nposition = [0, 0, 1]\n\
+         velocity = [0, 0, {own:?}]\n"
     );
     let laws = "repulsion = { alpha = 1e4, nu = 12, d0 = 1e-3 }";
     let run = at_support(&head, laws, &(support + &ball)).run();

@@ -163,10 +163,12 @@ fn a_cluster_keeps_energy_and_momenta() {
         .map(|(k, (shape, place))| {
             let (spin, way) = (0.3 * k as f64 - 0.4, [0.1, -0.1, -0.3, 0.2][k]);
             format!(
-                "[[body]]\nname = \"b{k}\"\ngroup = \"all\"\nshape = {{ {shape} }}\ndensity = 1000\nposition = {place:?}\n\
+                "[[body]]\nname = \"b{k}\"\ngroup = \"all\"\nshape = {{ {shape} }}\ndensity = 1000\n\
+                 position = {place:?}\n\
                  orientation = {{ axis_angle = {{ axis = [1, 2, 3], angle = 0.2 }} }}\n\
                  velocity = [{:?}, {:?}, 0.05]\nangular_velocity = [{spin:?}, 1, 0.5]\n",
-                -0.8 * place[0], 0.1 * way - 0.8 * place[2]
+                -0.8 * place[0],
+                0.1 * way - 0.8 * place[2]
             )
         })
         .collect();
@@ -176,7 +178,8 @@ fn a_cluster_keeps_energy_and_momenta() {
     ] {
         let adhesion = "adhesion = { beta = 500, nu_attractive = 3, nu_repulsive = 9, d0 = 2e-3 }";
         let experiment = Experiment::of_scene(&format!(
-            "{HEAD}time = {{ end = 0.5, sample = 0.05 }}\n[[contact]]\nbetween = [\"all\", \"all\"]\n{laws}{adhesion}\n{bodies}"
+            "{HEAD}time = {{ end = 0.5, sample = 0.05 }}\n[[contact]]\nbetween = [\"all\", \"all\"]\n\
+             {laws}{adhesion}\n{bodies}"
         ));
         let run = experiment.run();
         let momenta = |state: &gyration::state::State| {

@@ -215,13 +215,15 @@ fn errors_of_supports_and_contacts_stand_at_their_place() {
             "give the contact a `repulsion`",
         ),
         (
-            "[[contact]]\nsupport = \"table\"\nrepulsion = { alpha = 0, nu = 6 }\nfriction = { beta = 1, nu = 6, mu = §0 }\n",
+            "[[contact]]\nsupport = \"table\"\nrepulsion = { alpha = 0, nu = 6 }\n\
+             friction = { beta = 1, nu = 6, mu = §0 }\n",
             "contact.0.friction.mu",
             "this contact has none",
             "leave mu out",
         ),
         (
-            "[[contact]]\nsupport = \"table\"\nrepulsion = { alpha = 1, nu = 6 }\nfriction = { beta = 1, nu = 6, mu = §-0.1 }\n",
+            "[[contact]]\nsupport = \"table\"\nrepulsion = { alpha = 1, nu = 6 }\n\
+             friction = { beta = 1, nu = 6, mu = §-0.1 }\n",
             "contact.0.friction.mu",
             "at least 0",
             "",

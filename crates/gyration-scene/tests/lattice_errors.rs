@@ -22,7 +22,8 @@ fn errors_of_a_lattice_stand_at_their_place() {
         ),
         (
             format!(
-                "{CHAIN}repeat = [8, 1, 1]\nwave = {{ kappa = [0.1, 0, 0], amplitude = 1e-3, at = [4, §1, 0], width = 1 }}"
+                "{CHAIN}repeat = [8, 1, 1]\n\
+                 wave = {{ kappa = [0.1, 0, 0], amplitude = 1e-3, at = [4, §1, 0], width = 1 }}"
             ),
             "lattice.wave.at.1",
             "has 1 cell vectors",
@@ -30,7 +31,8 @@ fn errors_of_a_lattice_stand_at_their_place() {
         ),
         (
             format!(
-                "{CHAIN}[[bond]]\nbetween = [\"a\", \"a\"]\ncell = [1, 0, 0]\nlaw = \"l^2\"\naxes = §[[1, 0, 0], [0, 1, 0]]"
+                "{CHAIN}[[bond]]\nbetween = [\"a\", \"a\"]\ncell = [1, 0, 0]\nlaw = \"l^2\"\n\
+                 axes = §[[1, 0, 0], [0, 1, 0]]"
             ),
             "bond.0.axes",
             "this bond has neither",

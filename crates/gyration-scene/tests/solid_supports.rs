@@ -128,7 +128,8 @@ fn what_is_wrong_with_a_support_is_told_at_its_key() {
         fixed.to_owned(),
         "body.floor.fixed",
         "a body that does not move is a support",
-        "[[support]] with name = \"floor\", shape = { box = { size = [2.0, 1.0, \"5 cm\"] } }, position = [0.0, 0.0, -1.0]",
+        "[[support]] with name = \"floor\", shape = { box = { size = [2.0, 1.0, \"5 cm\"] } }, position = [0.0, \
+         0.0, -1.0]",
     )]);
     for (text, key, message, help) in rows {
         assert_error(&format!("{TIME}{text}{BALL}"), key, message, help);

@@ -28,7 +28,10 @@ export function carriage(motion: Motion, time: number): Carriage {
       displacement = plus(displacement, scaled(part.velocity, time));
     } else if ("oscillate" in part) {
       const { direction, amplitude, frequency, phase } = part.oscillate;
-      displacement = plus(displacement, scaled(direction, amplitude * Math.sin(2 * Math.PI * frequency * time + phase)));
+      displacement = plus(
+        displacement,
+        scaled(direction, amplitude * Math.sin(2 * Math.PI * frequency * time + phase)),
+      );
     } else {
       const { axis, point, rate } = part.rotate;
       const by = rotation(axis, rate * time);

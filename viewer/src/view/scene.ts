@@ -13,9 +13,9 @@ import { GhostLayer } from "./ghosts";
 import { LIGHT } from "./material";
 import { OutlineLayer } from "./outlines";
 import { directionsFor } from "./quality";
+import { SolidLayer } from "./solids";
 import { SpringLayer } from "./springs";
 import type { Stage } from "./stage";
-import { SolidLayer } from "./solids";
 import { SupportLayer } from "./supports";
 import { TrailLayer } from "./trails";
 import { VectorLayer } from "./vectors";
@@ -69,7 +69,13 @@ export class SceneView {
     this.trails = new TrailLayer(recording);
     this.ghosts = new GhostLayer(recording, stage.quality);
     stage.root.clear();
-    stage.root.add(this.supports.group, this.solids.group, this.bodies.group, this.outlines.group, this.vectors.group);
+    stage.root.add(
+      this.supports.group,
+      this.solids.group,
+      this.bodies.group,
+      this.outlines.group,
+      this.vectors.group,
+    );
     stage.root.add(this.springs.lines, this.trails.lines, this.ghosts.group);
     this.cast();
     this.fit(kept ?? framed(recording));

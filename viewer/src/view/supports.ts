@@ -16,8 +16,8 @@ import {
 } from "three";
 import type { Support, Vec3 } from "../data/header";
 import type { Recording } from "../data/recording";
-import { roundBelow } from "../math/format";
 import { applied, type Carriage, carriage, placeOf } from "../math/carriage";
+import { roundBelow } from "../math/format";
 import { across, cross, dot } from "../math/mat3";
 import { ShadowLayer } from "./shadows";
 

@@ -41,11 +41,11 @@ pub(super) fn check_start(model: &Model, state: &mut State, joints: &[PlacedJoin
         let PlacedJoint { key, joint, .. } = &joints[found.joint];
         let (name, dependent, all) = (&joint.name, found.dependent, joint.rows().len());
         let message = format!(
-            "the joint \"{name}\" is over-determined: {dependent} of its {all} equations follow from those of the joints \
-             before it, or hold what is held already"
+            "the joint \"{name}\" is over-determined: {dependent} of its {all} equations follow from those of the \
+             joints before it, or hold what is held already"
         );
-        let help = "leave it out, or write a kind that holds less: a loop of four hinges in a plane moves as one of two \
-                    hinges and two balls";
+        let help = "leave it out, or write a kind that holds less: a loop of four hinges in a plane moves as one of \
+                    two hinges and two balls";
         reporter.note(key, message, help);
         return;
     }

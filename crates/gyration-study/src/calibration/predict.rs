@@ -4,8 +4,8 @@
 //! |---|---|
 //! | rebound | h + n·(p₀ − p₀(0)) at the first apex behind the first closest approach, from rest at a gap h |
 //! | gap | of the rest state, where the exact balance has no force left |
-//! | speed on a slope θ | that of which friction is m g sin θ, in the rest state under g cos θ; without a bound m g sin θ/c |
-//! | slope at which it begins to slide | tan θ = F/(m g cos θ), F the most that friction holds in the rest state under g cos θ |
+//! | speed on a slope θ | at which friction is m g sin θ, at rest under g cos θ; without a bound m g sin θ/c |
+//! | slope where sliding begins | tan θ = F/(m g cos θ), F the most that friction holds at rest under g cos θ |
 //! | pull-off | the largest force towards the support over all gaps, in the attitude of the start |
 //!
 //! Viscous friction holds nothing: a body slides on every slope, v = (α/β) tan θ where both exponents are the same, and

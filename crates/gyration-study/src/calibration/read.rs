@@ -258,7 +258,8 @@ fn experiment(
     }
     if let Some(row) = (0..count).find(|row| !is_possible(kind, conditions[*row], measured[*row], deviations[*row])) {
         let message = format!("row {}: {:?} {result_unit} cannot be", row + 1, measured[row]);
-        let help = "write numbers above zero, rebounds not above the height of the drop, angles below pi/2; numbers are in SI units, strings have their own";
+        let help = "write numbers above zero, rebounds not above the height of the drop, angles below pi/2; numbers \
+            are in SI units, strings have their own";
         input.note(&inside(result), message, help);
         return None;
     }
