@@ -40,8 +40,15 @@ fn a_support_is_what_a_body_of_infinite_mass_is() {
     let between = Experiment::of_scene(&between).run();
     let case =
         Case { row: None, name: "a tumbling box at a support that moves", source: "the same at a body of 1e14 kg" };
-    for column in ["a.vx", "a.vy", "a.vz", "a.Pdot_xy", "a.Pdot_yz", "a.Pdot_zx"] {
-        case.check("velocities after the impact", last(&between, column), last(&at, column), 1e-8);
+    for (quantity, column) in [
+        ("v_x after the impact [m/s]", "a.vx"),
+        ("v_y after the impact [m/s]", "a.vy"),
+        ("v_z after the impact [m/s]", "a.vz"),
+        ("Ṗ_xy after the impact [1/s]", "a.Pdot_xy"),
+        ("Ṗ_yz after the impact [1/s]", "a.Pdot_yz"),
+        ("Ṗ_zx after the impact [1/s]", "a.Pdot_zx"),
+    ] {
+        case.check(quantity, last(&between, column), last(&at, column), 1e-8);
     }
     assert!(at.relative_residual() < 1e-9, "{}", at.relative_residual());
 }
@@ -69,7 +76,11 @@ fn a_support_that_moves_throws_a_ball_back() {
 #[test]
 fn a_ball_slides_down_a_fixed_ball_until_it_leaves() {
     let (large, small, start, gravity) = (1.0, 0.1, 0.3_f64, 9.81);
-    for (gap, tolerance) in [(1e-4, 1e-3), (1e-5, 1e-4)] {
+    // A power law lets go slowly: the place where it does tends to the limit with the gap.
+    for (name, gap, [tolerance, slow]) in [
+        ("a ball that slides down a fixed ball, gap/R = 1e-4", 1e-4, [1e-3, 5e-2]),
+        ("a ball that slides down a fixed ball, gap/R = 1e-5", 1e-5, [1e-4, 2e-2]),
+    ] {
         // F = 2πα Rr/(R+r) d₀^ν g^(1−ν)/(ν−1): at d₀ the weight along the normal.
         let alpha = 5.0 * gravity * start.cos() / (2.0 * PI * large * small / (large + small) * gap);
         let distance = large + small + gap;
@@ -90,17 +101,13 @@ fn a_ball_slides_down_a_fixed_ball_until_it_leaves() {
             let pressed = gravity * (3.0 * cosine - 2.0 * start.cos());
             (forces.0[k].hypot(forces.1[k]) - pressed).abs() / gravity
         });
-        let case = Case {
-            row: None,
-            name: "a ball that slides down a fixed ball, gap/R small",
-            source: "mg (3 cosθ − 2 cosθ₀)",
-        };
+        let case = Case { row: None, name, source: "mg (3 cosθ − 2 cosθ₀)" };
         case.check("largest error of its force over its weight", 0.0, largest(off), tolerance);
         let left = run.times_of("lift_off")[0];
         let place = experiment.motion_at(left).placement.position;
-        // The force is a hundredth of the weight there; a power law lets go slowly.
+        // The force is a hundredth of the weight there.
         let expected = (2.0 * start.cos() + 0.01) / 3.0;
-        case.check("cosθ where it leaves", expected, place.z / place.norm(), 0.05);
+        case.check("cosθ where it leaves", expected, place.z / place.norm(), slow);
     }
 }
 

@@ -173,8 +173,8 @@ fn a_cluster_keeps_energy_and_momenta() {
         })
         .collect();
     for (name, laws) in [
-        ("placed by a repulsion", "repulsion = { alpha = 50, nu = 6, d0 = 2e-3 }\n"),
-        ("placed by its own repulsive part", ""),
+        ("four shapes that adhere, placed by a repulsion", "repulsion = { alpha = 50, nu = 6, d0 = 2e-3 }\n"),
+        ("four shapes that adhere, placed by what adhesion repels", ""),
     ] {
         let adhesion = "adhesion = { beta = 500, nu_attractive = 3, nu_repulsive = 9, d0 = 2e-3 }";
         let experiment = Experiment::of_scene(&format!(
@@ -199,7 +199,7 @@ fn a_cluster_keeps_energy_and_momenta() {
             (linear, angular, size)
         };
         let (before, after) = (momenta(&experiment.start), momenta(&run.end));
-        let case = Case { row: Some(17), name: "a cluster of four shapes that adhere", source: "conserved" }.by(name);
+        let case = Case { row: Some(17), name, source: "conserved" };
         case.check("momentum, change over the sum of its sizes", 0.0, (after.0 - before.0).norm() / before.2[0], 1e-13);
         case.check(
             "angular momentum, change over the sum of its sizes",
