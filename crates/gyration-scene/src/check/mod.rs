@@ -4,6 +4,7 @@
 //! walk. Each section, support, contact and body that passes is deserialized into a [`PartialScene`] and goes on to
 //! `values` and to `assemble`, so that a misspelt key in one body does not hide a missing support of another.
 
+mod ends;
 mod fixed;
 mod joints;
 mod named;

@@ -3,6 +3,7 @@
 //!
 //! Bodies are checked where they are built.
 
+use super::ends::check_ends;
 use super::joints;
 use super::named::Named;
 use super::partial::BodyWords;
@@ -55,32 +56,20 @@ fn references(section: &str, known: &Named, reporter: &mut Reporter<'_>) {
     }
 }
 
-/// Notes the springs or bonds between bodies, well formed or not, that name a body that is not there or one body twice.
+/// Notes the springs or bonds between bodies that name a body that is not there or one body twice.
 fn ends(section: &str, known: &Named, reporter: &mut Reporter<'_>) {
-    let springs = Key::root().key(section);
-    let document = reporter.document;
-    let items = document.root.get(section).map(Node::items).unwrap_or_default();
-    for (index, item) in items.iter().enumerate() {
-        let key = springs.index(index).key("between");
-        let ends = item.get("between").map(Node::items).unwrap_or_default();
-        let names: Vec<Option<&str>> = ends.iter().map(Node::text).collect();
-        for (end, (node, name)) in ends.iter().zip(&names).enumerate() {
-            if reporter.diagnostics.is_full() {
-                return;
-            }
-            let Some(name) = name else { continue };
-            let message = if known.lacks(name) {
-                (format!("there is no body \"{name}\""), suggest::fix(name, known.iter(), "body"))
-            } else if names[..end].contains(&Some(name)) && !leads_away(item) {
-                let help = "name two different bodies, or in a lattice the `cell` of the second; to a point of space \
-                            leads a `spring` of the body";
-                (format!("both ends are at the body \"{name}\""), help.to_owned())
-            } else {
-                continue;
-            };
-            reporter.diagnostics.at(node.span, &key.index(end), message.0, message.1);
+    check_ends(section, reporter, |end| {
+        let name = end.name;
+        if known.lacks(name) {
+            Some((format!("there is no body \"{name}\""), suggest::fix(name, known.iter(), "body")))
+        } else if end.is_twice() && !leads_away(end.item) {
+            let help = "name two different bodies, or in a lattice the `cell` of the second; to a point of space \
+                        leads a `spring` of the body";
+            Some((format!("both ends are at the body \"{name}\""), help.to_owned()))
+        } else {
+            None
         }
-    }
+    });
 }
 
 /// Whether a spring leads to another cell.
