@@ -1,9 +1,10 @@
 //! The supports as sheets under the whole motion.
 
+use super::support_surfaces::{Owners, support_surfaces};
 use gyration::model::Model;
 use gyration::support::{Support, SupportMotion};
 use gyration::tensor::Vec3;
-use gyration_record::export::vtk::{CompressedNumbers, DataArray, PolyData, Topology, Whole, WholeValues};
+use gyration_record::export::vtk::{PolyData, Topology};
 use gyration_record::{RecordError, Recording};
 
 /// By how much a sheet is wider than the motion above it.
@@ -59,21 +60,7 @@ impl Sheets {
         let places: Vec<Vec3> = self.sheets.iter().flat_map(place).collect();
         let numbers: Vec<i32> = (0..self.sheets.len()).map(|support| support as i32).collect();
         let names = self.sheets.iter().map(|sheet| sheet.name.clone()).collect();
-        PolyData {
-            topology: &self.topology,
-            points: CompressedNumbers::floats(places.iter().flatten().copied()),
-            point_data: Vec::new(),
-            cell_data: vec![DataArray {
-                name: "support",
-                units: "",
-                components: 1,
-                values: CompressedNumbers::integers(numbers),
-            }],
-            field_data: vec![
-                Whole { name: "TimeValue".into(), values: WholeValues::Numbers(1, vec![time]) },
-                Whole { name: "support_names".into(), values: WholeValues::Names(names) },
-            ],
-        }
+        support_surfaces(&self.topology, &places, Owners { cells: numbers, names }, time)
     }
 }
 

@@ -15,6 +15,7 @@
 mod figures;
 mod ground;
 mod solids;
+mod support_surfaces;
 
 use super::{BodySnapshot, Replay, ReplayError, Snapshot};
 use figures::Figures;

@@ -1,9 +1,10 @@
 //! The supports with a shape as surfaces, where they are.
 
+use super::support_surfaces::{Owners, support_surfaces};
 use gyration::model::Model;
 use gyration::solid_support::SolidSupport;
 use gyration::tensor::Vec3;
-use gyration_record::export::vtk::{CompressedNumbers, DataArray, PolyData, Topology, Whole, WholeValues};
+use gyration_record::export::vtk::{PolyData, Topology};
 use std::sync::Arc;
 
 /// Triangles of a support.
@@ -52,20 +53,6 @@ impl SolidFigures {
         };
         let places: Vec<Vec3> = self.supports.iter().zip(&self.points).flat_map(place).collect();
         let names = self.supports.iter().map(|support| support.name.clone()).collect();
-        PolyData {
-            topology: &self.topology,
-            points: CompressedNumbers::floats(places.iter().flatten().copied()),
-            point_data: Vec::new(),
-            cell_data: vec![DataArray {
-                name: "support",
-                units: "",
-                components: 1,
-                values: CompressedNumbers::integers(self.owners.iter().copied()),
-            }],
-            field_data: vec![
-                Whole { name: "TimeValue".into(), values: WholeValues::Numbers(1, vec![time]) },
-                Whole { name: "support_names".into(), values: WholeValues::Names(names) },
-            ],
-        }
+        support_surfaces(&self.topology, &places, Owners { cells: self.owners.clone(), names }, time)
     }
 }
