@@ -31,4 +31,5 @@ mod short_range;
 mod stepping;
 mod surfaces;
 mod touching;
+mod turning_supports;
 mod waves;

@@ -78,7 +78,10 @@ pub(crate) fn horizon(
             let seen = SeenFromSupport::of_plane(support, time, end);
             let end = seen.as_ref().map_or(end, |seen| &seen.body);
             let mut approach = PlaneApproach::of(model, contact.support, time, end, surface, *radius);
-            approach.acceleration += seen.map_or(0.0, |seen| seen.bend);
+            if let Some(seen) = &seen {
+                approach.acceleration += seen.bend;
+                step = step.min(seen.longest);
+            }
             let frequency = support.motion.highest_frequency();
             step = step.min(if frequency > 0.0 {
                 let near = surface.smallest_gap(&approach.field).0 < body.size;
@@ -99,16 +102,18 @@ pub(crate) fn horizon(
                 if frequency > 0.0 && slab.gap < model.bodies[body].size {
                     step = step.min(PERIOD_PART / frequency);
                 }
-                Some(SeenFromSupport::of(support, time, &ends[body]))
+                let seen = SeenFromSupport::of(support, time, &ends[body]);
+                step = step.min(seen.0.longest);
+                Some(seen)
             }
             _ => None,
         };
         let both = match (&seen, pair.bodies()) {
-            (Some(SeenFromSupport { body, support, .. }), _) => [body, support],
+            (Some((SeenFromSupport { body, .. }, support)), _) => [body, support],
             (None, Some(bodies)) => bodies.map(|body| &ends[body]),
             (None, None) => continue,
         };
-        let bend = seen.map_or(0.0, |seen| seen.bend);
+        let bend = seen.map_or(0.0, |(seen, _)| seen.bend);
         match (slab.gap < f64::INFINITY, pair.form.reach) {
             // All pairs with supports are listed.
             (false, Some(reach)) if is_whole || seen.is_some() => {
