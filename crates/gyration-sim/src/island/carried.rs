@@ -2,13 +2,14 @@
 //!
 //!   w = ṗ₀ − v(p₀),   W = Ṗ − [ω]× P,   ẅ = p̈₀ − a(p₀) − 2 ω × w   as the axes of the support see it
 //!
-//! v(x), a(x) velocity and acceleration of the point of the support at x. While p̈₀ is what it is, and the support turns
-//! little,
+//! v(x), a(x) velocity and acceleration of the point of the support at x. While p̈₀ is what it is, and the support
+//! turns little,
 //!
 //!   |d³w/dt³| ≤ Ω (A + 3 |ẅ| + 4 Ω |w|),   Ω ≥ |ω|, A ≥ |a| of that point at any time
 //!
-//! so that over τ ≤ 1/Ω the acceleration counts as |ẅ| + ⅓ (A + 3 |ẅ| + 4 Ω |w|) at most, along whatever direction. A body
-//! that the support carries has ẅ = 0 and w = 0. How translations shake the support is added as it may be at any time.
+//! so that over τ ≤ 1/Ω the acceleration counts as |ẅ| + ⅓ (A + 3 |ẅ| + 4 Ω |w|) at most, along whatever direction. A
+//! body that the support carries has ẅ = 0 and w = 0. How translations shake the support is added as it may be at any
+//! time.
 
 use crate::island::step_end::StepEnd;
 use gyration::kinematics::Velocity;

@@ -277,12 +277,12 @@ mod tests {
             let bend = (place(time + longer) - 2.0 * place(time) + place(time - longer)) / (longer * longer);
             assert!(velocity.norm() <= bound.speed && bend.norm() <= bound.acceleration * (1.0 + 1e-6));
             let carried = motion.carriage(time);
-            // Of second differences over 1e-4 s the rounding is 1e-8 of places of order one.
+            // Of second differences over 1e-4 s the fourth derivative leaves 0.05 m (6π/s)⁴ (1e-4 s)²/12 = 5e-6.
             let shaken = motion.translation_bound().acceleration;
             let turning = bend - carried.turning_acceleration_at(&place(time));
             let swung = MotionPart::Oscillation { direction: Vec3::x(), amplitude: 0.05, frequency: 3.0, phase: 0.4 };
             let swing = swung.displacement(time) * -(TAU * 3.0).powi(2);
-            assert!((turning - swing).norm() < 1e-6 && swing.norm() <= shaken, "{turning} {swing}");
+            assert!((turning - swing).norm() < 1e-5 && swing.norm() <= shaken, "{turning} {swing}");
             assert!((carried.start_of(&place(time)) - start).norm() < 1e-14);
             assert!((carried.rotation.tr_mul(&carried.rotation) - Mat3::identity()).norm() < 1e-15 * 10.0);
             assert!(carried.spin.norm() <= bound.spin);
