@@ -56,6 +56,13 @@ fn what_cannot_be_joined_is_refused_with_the_fix() {
         (format!("limits = §[0.5, 1]\n{stop}"), "limits", "starts at 0.0", "around"),
         (format!("limits = §[-4, 1]\n{stop}"), "limits", "from −π to π", "180 deg"),
         (format!("limits = [§\"-3 cm\", 1]\n{stop}"), "limits.0", "is an angle", "\"30 deg\""),
+        (format!("limits = §[1, -1]\n{stop}"), "limits", "nothing between them", "the least first"),
+        (
+            format!("limits = [-1, 1]\n{}", stop.replace("alpha = 1", "alpha = §\"3 N\"")),
+            "stop.repulsion.alpha",
+            "is a torque",
+            "\"0.1 N m\"",
+        ),
         ("drive = { force = §1 }".to_owned(), "drive.force", "driven by a torque", "`torque`"),
         ("drive = §{}".to_owned(), "drive", "no `torque`", "torque = 1"),
         ("drive = { torque = \"2*§speed\" }".to_owned(), "drive.torque", "speed", "Expressions"),
@@ -71,6 +78,9 @@ fn what_cannot_be_joined_is_refused_with_the_fix() {
     let support =
         format!("{TIME}{TABLE}{BOXES}[[joint]]\nname = \"j\"\nbetween = [\"a\", §\"table\"]\nkind = \"ball\"\n");
     assert_error(&support, "joint.j.between.1", "is a support", "\"space\"");
+    let space = BOXES.replacen("name = \"b\"", "name = \"space\"", 1);
+    let text = format!("{TIME}{space}[[joint]]\nname = \"j\"\nbetween = [\"a\", §\"space\"]\nkind = \"ball\"\n");
+    assert_error(&text, "joint.j.between.1", "is space itself", "another name");
     let twice = format!("{TIME}{BOXES}{BALL}{}", BALL.replace("\"j\"", "§\"j\""));
     assert_error(&twice, "joint.j.name", "occurs twice", "a name of its own");
     let again = format!("{TIME}{BOXES}{BALL}§{}", BALL.replace("\"j\"", "\"k\""));

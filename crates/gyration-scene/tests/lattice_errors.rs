@@ -79,6 +79,14 @@ fn forces_of_a_lattice_look_alike_from_every_cell_and_its_errors_come_alone() {
         let text = body(alike).replace('§', "");
         assert!(Scene::parse("scene.toml", &text, Path::new(""), &[]).is_ok(), "{alike}");
     }
+    let ball = "[[body]]\nname = \"b\"\nshape = { sphere = { radius = 0.1 } }\nmass = 1\nposition = [0, 0, 1]\n";
+    let at_point = "force = [{ point = [0, 0, 0.1], value = §[\"x\", \"0\", \"0\"] }]\n";
+    let text = format!("{TIME}{WEIGHTLESS}{CHAIN}{ball}{at_point}");
+    assert_error(&text, "body.b.force.0.value", "changes along cell vector 1", "let it repeat");
+    let turning = "[[support]]\nname = \"table\"\nplane = {}\nmotion = §{ rotate = { axis = [0, 0, 1], rate = 1 } }\n\
+                   [[contact]]\nsupport = \"table\"\nrepulsion = { alpha = 1, nu = 6, d0 = 0.01 }\n";
+    let text = format!("{TIME}{WEIGHTLESS}{CHAIN}{turning}{ball}");
+    assert_error(&text, "support.table.motion", "moves otherwise along cell vector 1", "rotate");
     let spring = "[[spring]]\nbetween = [\"a\", \"a\"]\ncell = [1, 0, 0]\nstiffness = 1\n";
     let text = format!("{TIME}{WEIGHTLESS}{POINT}[lattice]\ncell = §[[0, 0, 0]]\n{spring}");
     assert_error(&text, "lattice.cell", "cell vector 1 is zero", "span");

@@ -106,6 +106,16 @@ fn what_is_wrong_with_a_meeting_is_told_at_its_key() {
             "alpha > 0",
         ),
         (
+            between(
+                both,
+                "adhesion = { beta = 1, nu_attractive = 4, nu_repulsive = 6, d0 = 0.01 }\n\
+                 damping = { beta = 1, nu = 6, one_sided = §true }",
+            ),
+            "contact.0.damping.one_sided",
+            "at a speed that a repulsion tells",
+            "leave one_sided out",
+        ),
+        (
             between(both, "repulsion = { alpha = 1, nu = §1.5, d0 = 0.01 }"),
             "contact.0.repulsion.nu",
             "1.5 is less than 2",

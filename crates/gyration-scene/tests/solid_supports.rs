@@ -134,4 +134,6 @@ fn what_is_wrong_with_a_support_is_told_at_its_key() {
     for (text, key, message, help) in rows {
         assert_error(&format!("{TIME}{text}{BALL}"), key, message, help);
     }
+    let free = fixed.replace("fixed = true", "fixed = false");
+    assert_error(&format!("{TIME}{free}{BALL}"), "body.floor.fixed", "", "a body is free to move");
 }

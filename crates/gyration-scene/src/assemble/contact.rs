@@ -41,9 +41,13 @@ pub(super) fn attach(
         let (measure, laws) = (measure(value.measure), laws(value));
         laws.iter().for_each(|law| range(law, key, reporter));
         let partners = names.partners(value, assembled);
-        // Bodies that meet without a repulsion have no plane: they are told so.
-        if !matches!(partners, Some(Partners::Bodies(_))) {
-            check_pushed(value, &laws, key, reporter);
+        match partners {
+            // Without any law that pushes they have no plane, and are told so; adhesion alone pushes as well.
+            Some(Partners::Bodies(_)) => check_released(value, &laws, key, reporter),
+            _ => {
+                check_released(value, &laws, key, reporter);
+                check_pushed(&laws, key, reporter);
+            }
         }
         let Some(partners) = partners else { continue };
         match partners {
@@ -152,17 +156,23 @@ fn range(law: &ContactLaw, key: &Key, reporter: &mut Reporter<'_>) {
     }
 }
 
-/// Notes a bound on friction that has no force to be a part of, and damping that has no speed to release at.
-fn check_pushed(contact: &Contact, laws: &[ContactLaw], key: &Key, reporter: &mut Reporter<'_>) {
-    if laws.iter().any(|law| matches!(law, ContactLaw::Repulsion(law) if law.alpha > 0.0)) {
-        return;
-    }
-    if contact.damping.is_some_and(|damping| damping.one_sided) {
+/// Whether a repulsion pushes.
+fn repels(laws: &[ContactLaw]) -> bool {
+    laws.iter().any(|law| matches!(law, ContactLaw::Repulsion(law) if law.alpha > 0.0))
+}
+
+/// Notes damping that has no speed to release at.
+fn check_released(contact: &Contact, laws: &[ContactLaw], key: &Key, reporter: &mut Reporter<'_>) {
+    if contact.damping.is_some_and(|damping| damping.one_sided) && !repels(laws) {
         let message = "what recedes is let go at a speed that a repulsion tells, and this contact has none";
         let help = "give the contact a `repulsion` with alpha > 0, or leave one_sided out";
         reporter.note(&key.key("damping").key("one_sided"), message, help);
     }
-    if laws.iter().any(|law| law.mu().is_some()) {
+}
+
+/// Notes a bound on friction that has no force to be a part of.
+fn check_pushed(laws: &[ContactLaw], key: &Key, reporter: &mut Reporter<'_>) {
+    if laws.iter().any(|law| law.mu().is_some()) && !repels(laws) {
         let message = "a bound on friction is a part of the force of a repulsion, and this contact has none";
         let help = "give the contact a `repulsion` with alpha > 0, or leave mu out: friction is then viscous";
         reporter.note(&key.key("friction").key("mu"), message, help);

@@ -295,23 +295,25 @@ impl Cells {
                     let key = Key::root().key("support").index(index).key("plane");
                     reporter.note(&key, message, "turn its normal across all cell vectors");
                 }
+                if is_met && support.motion.turns() {
+                    let message = format!("what turns moves otherwise along cell vector {number}");
+                    let key = Key::root().key("support").index(index).key("motion");
+                    reporter.note(&key, message, "leave out `rotate`, or the lattice");
+                }
             }
             for (index, body) in bodies.iter().enumerate() {
-                let Some((body, force)) = body.as_ref().and_then(|it| Some((it, it.body.own.body_force.as_ref()?)))
-                else {
-                    continue;
-                };
+                let Some(body) = body else { continue };
                 let center = placement(&body.start).position;
                 let beside = [[0.0, 0.0, 0.0], [0.31, 0.17, -0.23], [-0.19, 0.37, 0.29], [0.11, -0.41, 0.13]];
                 let points = beside.map(|[x, y, z]| center + body.body.size * Vec3::new(x, y, z));
-                if !force.field().is_alike(&points, vector) {
+                let own = Key::root().key("body").index(index);
+                let of_volume = body.body.own.body_force.iter().map(|force| (force.field(), own.key("body_force")));
+                let at_points = body.body.own.point_forces.iter().enumerate();
+                let at_points = at_points.map(|(k, force)| (&force.field, own.key("force").index(k).key("value")));
+                for (_, key) in of_volume.chain(at_points).filter(|(field, _)| !field.is_alike(&points, vector)) {
                     let message = format!("the force changes along cell vector {number}: cells do not see it alike");
-                    let key = Key::root().key("body").index(index).key("body_force");
-                    reporter.note(
-                        &key,
-                        message,
-                        "let it repeat with the cell; `potential` is of the place in the cell",
-                    );
+                    let help = "let it repeat with the cell; `potential` is of the place in the cell";
+                    reporter.note(&key, message, help);
                 }
             }
             if let Some(fluid) = fluid {

@@ -21,8 +21,21 @@ pub(super) struct WrittenMotor<'a> {
     pub start: f64,
 }
 
-const ANGLE: UnitDimension = UnitDimension::new(0, 0, 0, 1);
-const LENGTH: UnitDimension = UnitDimension::new(1, 0, 0, 0);
+/// What a number of a stop is: its unit in words, how one is written, and its dimension.
+struct Unit(&'static str, &'static str, UnitDimension);
+
+/// Of an angle, a torque, and a damping of turns.
+const OF_HINGE: [Unit; 3] = [
+    Unit("an angle", "\"30 deg\"", UnitDimension::new(0, 0, 0, 1)),
+    Unit("a torque", "\"0.1 N m\"", UnitDimension::new(2, 1, -2, 0)),
+    Unit("a torque per rate", "\"0.1 N m s\"", UnitDimension::new(2, 1, -1, 0)),
+];
+/// Of a way, a force, and a damping of it.
+const OF_SLIDER: [Unit; 3] = [
+    Unit("a length", "\"2 cm\"", UnitDimension::new(1, 0, 0, 0)),
+    Unit("a force", "\"3 N\"", UnitDimension::new(1, 1, -2, 0)),
+    Unit("a force per velocity", "\"3 N s/m\"", UnitDimension::new(0, 1, -1, 0)),
+];
 
 impl WrittenMotor<'_> {
     /// The motor; notes what is wrong with it.
@@ -63,19 +76,31 @@ impl WrittenMotor<'_> {
             }
         };
         let place = key.key("limits");
-        let are_of = [0, 1].map(|k| self.is_of(&place.index(k), self.unit(), reporter));
-        let mut is_right = are_of[0] && are_of[1];
-        for name in ["repulsion", "damping"] {
-            is_right &= self.is_of(&key.key("stop").key(name).key("d0"), self.unit(), reporter);
-        }
+        let [way, push, resistance] = if *kind == JointKind::Hinge { &OF_HINGE } else { &OF_SLIDER };
+        let of_stop = |law: &str, name: &str| key.key("stop").key(law).key(name);
+        let written_as = [
+            (place.index(0), way),
+            (place.index(1), way),
+            (of_stop("repulsion", "d0"), way),
+            (of_stop("damping", "d0"), way),
+            (of_stop("repulsion", "alpha"), push),
+            (of_stop("damping", "beta"), resistance),
+        ];
+        let wrong = written_as.iter().filter(|(key, unit)| !self.is_of(key, unit, reporter)).count();
         let [low, high] = limits;
         if *kind == JointKind::Hinge && !(low >= -PI && high <= PI) {
             let help = "write angles from -180 deg to 180 deg";
             reporter.note(&place, format!("an angle is from −π to π, and the limits are {low:?} and {high:?}"), help);
             return None;
         }
+        if low >= high {
+            let message = format!("the limits {low:?} and {high:?} leave nothing between them");
+            reporter.note(&place, message, "write the least first");
+            return None;
+        }
         if !(low < *start && *start < high) {
-            let message = format!("the joint starts at {start:?}, which is not between {low:?} and {high:?}");
+            let si = if *kind == JointKind::Hinge { "rad" } else { "m" };
+            let message = format!("the joint starts at {start:?} {si}, which is not between {low:?} and {high:?} {si}");
             reporter.note(&place, message, "write limits around the start, or start elsewhere");
             return None;
         }
@@ -87,21 +112,15 @@ impl WrittenMotor<'_> {
             reporter.note(&key.key("stop").key("repulsion").key("nu"), message, "write at least 1");
             return None;
         }
-        is_right.then_some(Some(Stop { limits, repulsion, damping }))
+        (wrong == 0).then_some(Some(Stop { limits, repulsion, damping }))
     }
 
-    fn unit(&self) -> UnitDimension {
-        if self.kind == JointKind::Hinge { ANGLE } else { LENGTH }
-    }
-
-    /// Whether a number is without a unit, or has the one of the coordinate; notes it otherwise.
-    fn is_of(&self, key: &Key, dimension: UnitDimension, reporter: &mut Reporter<'_>) -> bool {
+    /// Whether a number is without a unit, or has this one; notes it otherwise.
+    fn is_of(&self, key: &Key, Unit(what, example, dimension): &Unit, reporter: &mut Reporter<'_>) -> bool {
         let node = key.find(&reporter.document.root);
         let unit = node.and_then(Node::text).and_then(|text| parse_quantity(text).ok()).map(|(_, unit)| unit.dimension);
-        let is_right = unit.is_none_or(|unit| unit == dimension);
+        let is_right = unit.is_none_or(|unit| unit == *dimension);
         if !is_right {
-            let (what, example) =
-                if self.kind == JointKind::Hinge { ("an angle", "\"30 deg\"") } else { ("a length", "\"2 cm\"") };
             let message = format!("of a {} this is {what}, and its unit is none of one", self.kind.word());
             reporter.note(key, message, format!("write {example}"));
         }

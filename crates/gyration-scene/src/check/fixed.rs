@@ -14,6 +14,10 @@ pub(super) fn says(table: &Key, name: &str) -> bool {
 
 /// The support in its place, as it is to be written.
 pub(super) fn help(body: &Table) -> String {
+    let is_false = body.get("fixed").is_some_and(|entry| entry.node.to_json() == Json::Bool(false));
+    if is_false {
+        return "leave it out: a body is free to move".to_owned();
+    }
     let written = |name: &&str| Some(format!("{name} = {}", inline(&body.get(*name)?.node.to_json())));
     let keys: Vec<String> = SHARED.iter().filter_map(written).collect();
     format!("write a support: [[support]] with {}, and name it in contacts", keys.join(", "))

@@ -12,7 +12,10 @@ pub(crate) const SPACE: &str = "space";
 pub(super) fn ends(supports: &Named, bodies: &Named, reporter: &mut Reporter<'_>) {
     check_ends("joint", reporter, |end| {
         let name = end.name;
-        if name == SPACE && !bodies.has(SPACE) {
+        if name == SPACE && (bodies.has(SPACE) || supports.has(SPACE)) {
+            let message = "\"space\" is space itself, and a body or support is called so too".to_owned();
+            Some((message, "give the body or support another name".to_owned()))
+        } else if name == SPACE {
             let message = "both ends are \"space\": the joint closes nothing";
             end.is_twice().then(|| (message.to_owned(), "name a body".to_owned()))
         } else if supports.has(name) && !bodies.has(name) {
