@@ -13,7 +13,7 @@ use gyration_ode::ExtendedMut;
 /// Puts a state back to its joints, the bodies themselves by `restore`; returns the largest misfit before, and the
 /// energy that it took \[J\].
 ///
-/// A state outside the model is left as it is: the next rates tell.
+/// A state outside the model is left where it has come to: the next rates tell.
 pub(crate) fn hold_joints(
     model: &Model,
     workspace: &mut Workspace,
@@ -23,10 +23,13 @@ pub(crate) fn hold_joints(
 ) -> (f64, f64) {
     let ExtendedMut { high, low } = y;
     let before = own_energies(model, time, high);
-    let Ok(places) = workspace.hold_places(model, &mut Held { time, high, low }) else { return (0.0, 0.0) };
-    restore(ExtendedMut { high, low });
-    let Ok(_) = workspace.hold_velocities(model, &mut Held { time, high, low }) else { return (places, 0.0) };
-    (places, own_energies(model, time, high) - before)
+    let found = workspace.hold_places(model, &mut Held { time, high, low });
+    if found.is_ok() {
+        restore(ExtendedMut { high, low });
+        // What fails there has moved as far as it has.
+        let _outside = workspace.hold_velocities(model, &mut Held { time, high, low });
+    }
+    (found.unwrap_or(0.0), own_energies(model, time, high) - before)
 }
 
 /// Kinetic, gravity and elastic energy of the bodies with joints \[J\].

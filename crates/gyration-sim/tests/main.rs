@@ -27,6 +27,7 @@ mod resumption;
 mod run_loop;
 mod runs;
 mod sensitivities;
+mod settled;
 mod short_range;
 mod stepping;
 mod surfaces;

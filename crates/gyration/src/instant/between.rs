@@ -128,8 +128,10 @@ impl Between {
     fn find_motors(&mut self, looking: &Looking) -> Result<(), Inadmissible> {
         self.joints.clear();
         self.motor_slopes.clear();
-        for number in 0..looking.model.joints().len() {
-            let (loads, slopes) = driven(looking.model, looking.motions, number, &mut self.formulas)?;
+        let Looking { model, motions, wanted, .. } = looking;
+        for number in 0..model.joints().len() {
+            let with_slopes = *wanted == Wanted::Slopes;
+            let (loads, slopes) = driven(model, motions, number, with_slopes, &mut self.formulas)?;
             self.joints.push(loads);
             self.motor_slopes.push(slopes);
         }

@@ -29,7 +29,7 @@ pub(crate) fn apart<'a>(joint: &Joint, at: impl Fn(usize) -> MotionAt<'a>) -> Ma
     apart
 }
 
-/// What the motor of a joint does, and its derivatives.
+/// What the motor of a joint does, and its derivatives where they are wanted.
 ///
 /// # Errors
 /// [`Inadmissible`] at a limit, or where its drive is undefined.
@@ -37,6 +37,7 @@ pub(super) fn driven(
     model: &Model,
     motions: &Motions,
     number: usize,
+    with_slopes: bool,
     scratch: &mut Scratch,
 ) -> Result<(JointLoads, Option<MotorSlopes>), Inadmissible> {
     let joint = &model.joints()[number];
@@ -56,6 +57,6 @@ pub(super) fn driven(
             }
         }
     })?;
-    let slopes = joint.motor_slopes(&jets, &loads.motor);
+    let slopes = if with_slopes { joint.motor_slopes(&jets, &loads.motor) } else { None };
     Ok((loads, slopes))
 }

@@ -3,9 +3,11 @@
 //! What is sought makes a convex function of the velocities least, the power of the fluid and Ψ of the bounds less that
 //! of all other forces. Newton's method begins at the velocities of viscous friction; a step is halved while the next
 //! one with the same matrix would be longer than it. The constraint on the volume is linear, and holds from the start.
+//! Of a body whose forces cancel all velocities are rounding: a step ends the search, too, that is small beside the
+//! speed which the forces would give one by one.
 
-use super::super::Scratch;
-use super::{Group, Member, factors, give_back, move_all, unbalanced, without_resistance};
+use super::super::{Scratch, each_push};
+use super::{Group, Member, begin, factors, give_back, move_all, unbalanced, without_resistance};
 use crate::acting::Load;
 use crate::body::Slots;
 use crate::inadmissible::{Inadmissible, Quantity};
@@ -14,6 +16,8 @@ use std::ops::Range;
 
 /// A step that is so small beside the velocities leaves an error of its square, which is rounding.
 const LAST_STEP: f64 = 1e-7;
+/// Rounding of velocities, in parts of the speed that the forces give one by one.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// More steps than are taken: friction far beyond its bound takes some fifteen.
 const MOST_STEPS: usize = 60;
 /// More halvings of a step than are needed.
@@ -58,7 +62,7 @@ impl Group {
         side: &mut Vec<f64>,
     ) -> Result<(), Inadmissible> {
         let nothing_resists = without_resistance(self.bodies[0]);
-        let mut relative = f64::NAN;
+        let (mut relative, mut least) = (f64::NAN, None);
         for _ in 0..MOST_STEPS {
             instant.differentiate_felt_pairs()?;
             give_back(members, scratch);
@@ -67,13 +71,18 @@ impl Group {
             }
             let Self { bodies, ranges, together, velocities, start, step } = self;
             let mut factors = factors(together, instant, bodies, members).ok_or(nothing_resists)?;
+            if least.is_none() {
+                pushed(instant, scratch, bodies, ranges, side)?;
+                factors.solve(side).ok_or(nothing_resists)?;
+                least = Some(ROUNDING * longest(instant, bodies, ranges, side));
+            }
             unbalanced(instant, scratch, bodies, ranges, side)?;
             factors.solve(side).ok_or(nothing_resists)?;
             step.clone_from(side);
             start.clone_from(velocities);
             let (length, mut part) = (longest(instant, bodies, ranges, step), 1.0);
             relative = length / longest(instant, bodies, ranges, start);
-            let is_last = length == 0.0 || relative < LAST_STEP;
+            let is_last = relative < LAST_STEP || least.is_some_and(|least| length <= least);
             for _ in 0..MOST_HALVINGS {
                 let moved = velocities.iter_mut().zip(&*start).zip(&*step);
                 moved.for_each(|((velocity, start), step)| *velocity = start + part * step);
@@ -92,6 +101,25 @@ impl Group {
         }
         Err(Inadmissible { body: self.bodies[0], quantity: Quantity::Balance, value: relative })
     }
+}
+
+/// Writes the right-hand side of the forces on each body, each as great as all of them [m/s²].
+fn pushed(
+    instant: &Instant,
+    scratch: &mut Scratch,
+    bodies: &[usize],
+    ranges: &[Range<usize>],
+    side: &mut Vec<f64>,
+) -> Result<(), Inadmissible> {
+    begin(ranges, side);
+    for (index, range) in bodies.iter().zip(ranges) {
+        let at = instant.at(*index);
+        let mut force = 0.0;
+        each_push(&at, scratch, |push| force += push.force)?;
+        let acceleration = at.model.gravity.norm() + force / at.body.solid.mass.mass;
+        side[range.start..range.start + Slots::with_inertia(at.body, 0).velocity().len()].fill(acceleration);
+    }
+    Ok(())
 }
 
 /// The longest motion of a point of a body with these velocities, roughly [m/s].
