@@ -56,6 +56,12 @@ fn structure_errors_stand_at_their_place() {
             "must be at least 0 N/m",
             "",
         ),
+        (
+            "spring = [{ anchor = [0, 0, 1], stiffness = 1, anchor_motion = [{ rotate = { axis = §[0, 0, 0], rate = 1 } }] }]",
+            "body.ball.spring.0.anchor_motion.0.rotate.axis",
+            "the axis is zero",
+            "write a direction",
+        ),
         ("spring = [§{ anchor = [0, 0, 1] }]", "body.ball.spring.0.stiffness", "missing", "N/m"),
     ];
     for (line, key, message, help) in rows {

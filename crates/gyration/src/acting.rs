@@ -246,7 +246,11 @@ impl<'a> Load<'a> {
                     .collect()
             }
             Self::Pair(pair) => pair.end.interaction.form.laws.laws().iter().map(|law| law.kind().work()).collect(),
-            Self::Spring(end) if end.interaction.law.damping > 0.0 => vec![Work::Load],
+            Self::Spring(end) => {
+                let moves = end.interaction.anchor().is_some_and(|anchor| !anchor.motion.is_fixed());
+                let dashpot = (end.interaction.law.damping > 0.0).then_some(Work::Load);
+                dashpot.into_iter().chain(moves.then_some(Work::Support)).collect()
+            }
             Self::Bond(end) if end.interaction.works() => vec![Work::Load],
             // What the error of a step leaves: its force does no work.
             Self::Joint(end) if end.interaction.motor.works() => vec![Work::Constraint, Work::Load],
@@ -256,7 +260,7 @@ impl<'a> Load<'a> {
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
             Self::Fluid(..) => vec![Work::Fluid],
             Self::Potential(potential) if !potential.is_energy() => vec![Work::Load],
-            Self::Spring(_) | Self::Bond(_) | Self::Resistance(_) | Self::Potential(_) => Vec::new(),
+            Self::Bond(_) | Self::Resistance(_) | Self::Potential(_) => Vec::new(),
         }
     }
 

@@ -90,7 +90,7 @@ fn ring(bodies: usize, laws: [SpringLaw; 2]) -> Vec<Spring> {
 /// The model on supports and anchors, whose bodies are joined by such springs too.
 pub fn joined(model: Model, laws: [SpringLaw; 2]) -> Model {
     let model = attached(model, [6.0, 5.0, 4.0, 3.0], AreaMeasure::DeformedArea);
-    let springs = model.springs().iter().copied().chain(ring(model.bodies.len(), laws)).collect();
+    let springs = model.springs().iter().cloned().chain(ring(model.bodies.len(), laws)).collect();
     model.with_springs(springs)
 }
 
@@ -219,7 +219,7 @@ fn what_a_spring_does_to_one_body_it_undoes_to_the_other() {
     let mut sums = vec![(Vec3::zeros(), Vec3::zeros()); model.springs().len()];
     for (body, own) in motions.iter().enumerate() {
         for end in model.springs_of(body) {
-            let force = end.loads(&end.interaction.loads(&model.lattice, |body| &motions[body]).unwrap()).force;
+            let force = end.loads(&end.interaction.loads(&model.lattice, 0.0, |body| &motions[body]).unwrap()).force;
             assert!(force.norm() > 1e-3);
             sums[end.number].0 += force;
             sums[end.number].1 += own.placement.place(&end.point()).cross(&force);
@@ -235,7 +235,7 @@ fn what_a_spring_does_to_one_body_it_undoes_to_the_other() {
 fn a_part_of_a_model_has_the_springs_between_its_bodies() {
     let count = bodies().len();
     let anchored = attached(Model::new(Vec3::zeros(), supports(), bodies()), [6.0; 4], AreaMeasure::default());
-    let springs = anchored.springs().iter().copied().chain(ring(count, [DIRECTED, PLAIN])).collect();
+    let springs = anchored.springs().iter().cloned().chain(ring(count, [DIRECTED, PLAIN])).collect();
     let model = anchored.with_springs(springs);
     let part = model.part(&[0, 2, 3, 7]);
     let kept: Vec<[usize; 2]> = part.joined().collect();

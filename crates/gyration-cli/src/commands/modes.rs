@@ -6,6 +6,7 @@ use crate::input::ready;
 use crate::output;
 use crate::waiting::waiting;
 use gyration::body::Body;
+use gyration::load::Spring;
 use gyration_scene::Scene;
 use gyration_sim::format::significant;
 use gyration_sim::survey::{self, BodyModes, ModeSurvey, Named, SceneModes, ShapeSurvey, SystemModes, write_rest};
@@ -48,8 +49,9 @@ fn in_words(scene: &Scene) -> String {
 fn assumptions(scene: &Scene) -> String {
     let model = &scene.built().model;
     let moves = model.supports.iter().any(|support| !support.motion.is_fixed())
-        || model.solid_supports.iter().any(|support| !support.motion.is_fixed());
-    let moving = if moves { ";\nsupports that move are held where they are at t = 0" } else { "" };
+        || model.solid_supports.iter().any(|support| !support.motion.is_fixed())
+        || model.springs().iter().filter_map(Spring::anchor).any(|anchor| !anchor.motion.is_fixed());
+    let moving = if moves { ";\nsupports and anchors that move are held where they are at t = 0" } else { "" };
     format!("Small motions about the rest state that bodies get to from their start{moving}\n")
 }
 

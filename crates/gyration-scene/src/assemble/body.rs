@@ -9,6 +9,7 @@ use super::own::OwnForcesWritten;
 use super::shape::ShapeBuilder;
 use super::solids::Solids;
 use super::start::{WrittenPlacement, placement};
+use super::support;
 use crate::check::{Placed, Reporter};
 use crate::file::Body;
 use crate::key::Key;
@@ -16,7 +17,7 @@ use crate::quantity::si;
 use crate::units::shown;
 use gyration::body::{Body as Moving, BodyKind, Pin, RigidInertia};
 use gyration::kinematics::Placement;
-use gyration::load::{Spring, SpringLaw};
+use gyration::load::{Anchor, Spring, SpringLaw};
 use gyration::shape::Shape;
 use gyration::state::Start;
 use gyration::tensor::Vec3;
@@ -124,13 +125,16 @@ fn near(arm: Option<&Vec3>, shape: &Shape, key: &Key, reporter: &mut Reporter<'_
 fn springs(placed: &Placed<Body>, place: &Placement, reporter: &mut Reporter<'_>) -> Vec<Spring> {
     let key = placed.key.key("spring");
     let make = |(index, written): (usize, &crate::file::Spring)| {
-        let (point, anchor) = (si(&written.point), si(&written.anchor));
+        let (point, start) = (si(&written.point), si(&written.anchor));
         let law = SpringLaw {
             stiffness: written.stiffness.value(),
             rest_length: written.rest_length.value(),
             damping: written.damping.value(),
         };
-        if law.is_directed() && place.place(&point) == anchor {
+        // Its first direction is that of an anchor which may have left its place.
+        let motion = Arc::new(support::motion(written.anchor_motion.as_ref())?);
+        let anchor = Anchor { start, motion };
+        if law.is_directed() && place.place(&point) == anchor.at(0.0).0 {
             let help = "move the anchor, or leave out `rest_length` and `damping`";
             reporter.note(
                 &key.index(index).key("anchor"),
@@ -138,7 +142,7 @@ fn springs(placed: &Placed<Body>, place: &Placement, reporter: &mut Reporter<'_>
                 help,
             );
         }
-        Spring::to_anchor(placed.number, point, anchor, law)
+        Some(Spring::to(placed.number, point, anchor, law))
     };
-    placed.value.spring.iter().enumerate().map(make).collect()
+    placed.value.spring.iter().enumerate().filter_map(make).collect()
 }

@@ -249,13 +249,13 @@ impl Cells {
         let copies = of_cell.iter().flat_map(|spring| {
             cells.iter().enumerate().filter_map(|(number, cell)| {
                 let places = [Some(number), self.beside(*cell, spring.cell)];
-                let mut ends = spring.ends;
+                let mut ends = spring.ends.clone();
                 for (end, place) in ends.iter_mut().zip(places) {
                     if let Attachment::Body { index, .. } = end {
                         *index = self.index(*index, place?);
                     }
                 }
-                Some(Spring { ends, ..*spring })
+                Some(Spring { ends, ..spring.clone() })
             })
         });
         copies.collect()

@@ -212,7 +212,7 @@ pub(crate) fn assemble(
     let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
     let supports = AssembledSupports::of(partial, context.base, reporter);
     let (contacts, rules, rule_keys) = contact::attach(partial, &supports, &assembled, reporter);
-    let anchored = assembled.iter().flatten().flat_map(|body| &body.springs).copied();
+    let anchored = assembled.iter().flatten().flat_map(|body| &body.springs).cloned();
     let cells = partial.lattice.as_ref().map(|written| Cells::of(written, reporter));
     let of_cell = cells.as_ref().and_then(Option::as_ref);
     let springs: Vec<Spring> = anchored.chain(spring::springs(partial, &assembled, of_cell, reporter)).collect();

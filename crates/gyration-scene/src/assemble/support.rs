@@ -3,7 +3,7 @@
 use super::orientation::orientation;
 use super::shape::ShapeBuilder;
 use crate::check::{PartialScene, Placed, Reporter, direction};
-use crate::file::{Motion, Support};
+use crate::file::{Motion, OneOrMany, Support};
 use crate::key::Key;
 use crate::quantity::si;
 use gyration::Party;
@@ -52,7 +52,7 @@ impl AssembledSupports {
 /// A plane, if its directions are not zero (which the checks have noted otherwise).
 fn plane(support: &Support) -> Option<Plane> {
     let plane = support.plane.as_ref()?;
-    let (motion, normal) = (motion(support)?, direction(&plane.normal)?);
+    let (motion, normal) = (motion(support.motion.as_ref())?, direction(&plane.normal)?);
     Some(Plane { name: support.name.clone(), origin: si(&plane.origin), normal, motion })
 }
 
@@ -75,7 +75,7 @@ fn solid(placed: &Placed<Support>, base: &Path, reporter: &mut Reporter<'_>) -> 
         size: shape.size(),
         solid: Arc::new(Solid::new(shape, mass)),
         start: Placement { position, gradient: turned?.rotation() },
-        motion: motion(value)?,
+        motion: motion(value.motion.as_ref())?,
     })
 }
 
@@ -93,9 +93,9 @@ fn is_solid(shape: &Shape, key: &Key, reporter: &mut Reporter<'_>) -> bool {
     true
 }
 
-/// The motion of a support, if its directions are not zero.
-fn motion(support: &Support) -> Option<SupportMotion> {
-    let written = support.motion.iter().flat_map(|motion| motion.as_slice());
+/// A motion as prescribed, if its directions are not zero.
+pub(super) fn motion(written: Option<&OneOrMany<Motion>>) -> Option<SupportMotion> {
+    let written = written.into_iter().flat_map(|motion| motion.as_slice());
     let parts = written.map(|motion| match motion {
         Motion::Velocity(velocity) => Some(MotionPart::Velocity(si(velocity))),
         Motion::Oscillate(oscillation) => Some(MotionPart::Oscillation {

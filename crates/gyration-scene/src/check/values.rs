@@ -1,7 +1,7 @@
 //! What the structure cannot say about supports, contacts, springs between bodies and times: names, references,
 //! directions, counts.
 //!
-//! Bodies are checked where they are built.
+//! Bodies are checked where they are built, but for directions of motions.
 
 use super::ends::check_ends;
 use super::joints;
@@ -28,6 +28,12 @@ pub(crate) fn values(partial: &PartialScene, reporter: &mut Reporter<'_>) {
         once(record, reporter);
     }
     partial.supports.iter().for_each(|support| directions(support, reporter));
+    for body in &partial.bodies {
+        for (index, spring) in body.value.spring.iter().enumerate() {
+            let key = body.key.key("spring").index(index).key("anchor_motion");
+            motion_directions(spring.anchor_motion.as_ref(), &key, reporter);
+        }
+    }
     references("support", &supports, reporter);
     references("body", &bodies, reporter);
     ends("spring", &bodies, reporter);
@@ -158,10 +164,14 @@ fn directions(support: &Placed<Support>, reporter: &mut Reporter<'_>) {
     if value.plane.as_ref().is_some_and(|plane| direction(&plane.normal).is_none()) {
         reporter.note(&key.key("plane").key("normal"), "the normal is zero", "write a direction, [0, 0, 1]");
     }
-    let motions = value.motion.as_ref().map(OneOrMany::as_slice).unwrap_or_default();
+    motion_directions(value.motion.as_ref(), &key.key("motion"), reporter);
+}
+
+/// Notes directions of a prescribed motion that are zero.
+fn motion_directions(written: Option<&OneOrMany<Motion>>, key: &Key, reporter: &mut Reporter<'_>) {
+    let motions = written.map(OneOrMany::as_slice).unwrap_or_default();
     for (index, motion) in motions.iter().enumerate() {
-        let key = key.key("motion");
-        let key = if matches!(value.motion, Some(OneOrMany::Many(_))) { key.index(index) } else { key };
+        let key = if matches!(written, Some(OneOrMany::Many(_))) { key.index(index) } else { key.clone() };
         let (place, what, written) = match motion {
             Motion::Velocity(_) => continue,
             Motion::Oscillate(oscillation) => {

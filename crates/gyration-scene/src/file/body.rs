@@ -1,6 +1,6 @@
 //! `[[body]]`: what moves.
 
-use super::{Affine, Contractile, Entry, Inclusion, Keep, LinearFriction, OneOrMany, Orientation, Shape};
+use super::{Affine, Contractile, Entry, Inclusion, Keep, LinearFriction, Motion, OneOrMany, Orientation, Shape};
 use crate::quantity::{
     AngularVelocity, AnyQuantity, Density, EulerMoment, GradientRate, Length, Mass, NonNegative, Positive,
     SpringDamping, Stiffness, Velocity,
@@ -132,8 +132,11 @@ pub struct Spring {
     /// Point of the body, relative to the centre of mass in the body's axes (m).
     #[serde(default)]
     pub point: [Length; 3],
-    /// Point of space (m).
+    /// Point of space (m), before any motion of it.
     pub anchor: [Length; 3],
+    /// How the anchor moves, or a list of motions that add up; fixed if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub anchor_motion: Option<OneOrMany<Motion>>,
     /// Stiffness (N/m).
     pub stiffness: NonNegative<Stiffness>,
     /// Length without force (m).

@@ -21,6 +21,7 @@ use gyration::body::Solid;
 use gyration::contact::RelativeMotion;
 use gyration::instant::PairGaps;
 use gyration::kinematics::Placement;
+use gyration::load::Spring;
 use gyration::model::Model;
 use gyration::neighbours::{BodyPair, Pair};
 use gyration::pair::{cutoff, half_cutoff};
@@ -70,6 +71,10 @@ pub(crate) fn horizon(
     let mut step = next_kink(model, time).map_or(longest, |kink| longest.min(kink - time));
     for frequency in signals(model).map(Signal::highest_frequency).filter(|frequency| *frequency > 0.0) {
         step = step.min(DRIVE_PART / frequency);
+    }
+    let anchors = model.springs().iter().filter_map(Spring::anchor);
+    for frequency in anchors.map(|anchor| anchor.motion.highest_frequency()).filter(|frequency| *frequency > 0.0) {
+        step = step.min(PERIOD_PART / frequency);
     }
     for (index, ((body, end), radius)) in model.bodies.iter().zip(ends).zip(radii).enumerate() {
         let Some(surface) = &body.solid.surface else { continue };

@@ -67,6 +67,7 @@ impl Acting {
                 let spring = at.spring(end);
                 if end.counts() {
                     self.powers[Work::Load] += spring.dashpot_power;
+                    self.powers[Work::Support] += spring.anchor_power;
                 }
                 self.total += end.loads(spring);
             }

@@ -255,7 +255,7 @@ impl Looked<'_> {
 /// What a spring exerts.
 fn stretched(model: &Model, motions: &Motions, number: usize) -> Result<SpringLoads, Inadmissible> {
     let spring = &model.springs()[number];
-    spring.loads(&model.lattice, |body| motions.motion(body)).map_err(|length| {
+    spring.loads(&model.lattice, motions.time(), |body| motions.motion(body)).map_err(|length| {
         let body = spring.parties()[0].body().unwrap_or_default();
         Inadmissible { body, quantity: Quantity::SpringLength { spring: number }, value: length }
     })

@@ -40,7 +40,7 @@ pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};
 pub(crate) use resistance::{mirrored, semi_definite};
 pub use slopes::LoadSlopes;
 pub(crate) use slopes::{COORDINATES, add_blocks, loads, numbers, unit};
-pub use spring::{Attachment, Spring, SpringEnd, SpringLaw, SpringLoads};
+pub use spring::{Anchor, Attachment, Spring, SpringEnd, SpringLaw, SpringLoads};
 pub use wrench::{Wrench, WrenchSlope};
 
 use crate::tensor::{Mat3, Vec3, axial};

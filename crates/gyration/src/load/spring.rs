@@ -1,18 +1,21 @@
-//! Springs and dashpots at material points: between two bodies, or from a body to an anchor in space.
+//! Springs and dashpots at material points: between two bodies, or from a body to an anchor in space, which may move as
+//! prescribed.
 //!
 //!   F = −[k (l − l₀) + c l̇] e,   e = d/l,   l = |d|,   l̇ = e·ḋ,   d = x − y
 //!
 //! on the point x of the first body; −F acts on the point y of the second, or on the anchor y; in a lattice d = x − y −
 //! R, R the place of the second's cell as seen from the first's. The potential is ½k(l − l₀)², the dissipation c l̇²,
-//! which count as the first body's. At l = 0 the direction e is lost: outside the model unless the spring has neither
-//! rest length nor dashpot.
+//! which count as the first body's; who moves an anchor does the work F·ẏ. At l = 0 the direction e is lost: outside
+//! the model unless the spring has neither rest length nor dashpot.
 
 use super::Loads;
 use super::interactions::{Interaction, InteractionEnd};
 use crate::kinematics::{BodyMotion, Placement};
 use crate::lattice::{Cell, HERE, Lattice};
 use crate::party::Party;
+use crate::support::SupportMotion;
 use crate::tensor::{Mat3, Vec3};
+use std::sync::Arc;
 
 /// A spring with a dashpot in parallel, whatever its ends are.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,8 +28,17 @@ pub struct SpringLaw {
     pub damping: f64,
 }
 
+/// A place in space, and how it moves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Anchor {
+    /// Where it is before any motion [m].
+    pub start: Vec3,
+    /// How it is carried.
+    pub motion: Arc<SupportMotion>,
+}
+
 /// Where an end of a spring is.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Attachment {
     /// At a material point of a body.
     Body {
@@ -35,12 +47,12 @@ pub enum Attachment {
         /// The point (from the centre of mass) [m].
         point: Vec3,
     },
-    /// At a place in space [m].
-    Anchor(Vec3),
+    /// At a place in space.
+    Anchor(Anchor),
 }
 
 /// A spring between two bodies, or from a body to an anchor.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Spring {
     /// Where it begins, which is at a body, and where it ends.
     pub ends: [Attachment; 2],
@@ -64,6 +76,8 @@ pub struct SpringLoads {
     pub by_velocity: Mat3,
     /// −c l̇² [W].
     pub dashpot_power: f64,
+    /// F·ẏ of an anchor [W].
+    pub anchor_power: f64,
     /// l [m].
     pub length: f64,
 }
@@ -92,7 +106,14 @@ impl SpringLaw {
         let length = along.norm();
         if !self.is_directed() {
             let (force, by_place) = (-self.stiffness * along, Mat3::from_diagonal_element(-self.stiffness));
-            return Ok(SpringLoads { force, by_place, by_velocity: Mat3::zeros(), dashpot_power: 0.0, length });
+            return Ok(SpringLoads {
+                force,
+                by_place,
+                by_velocity: Mat3::zeros(),
+                dashpot_power: 0.0,
+                anchor_power: 0.0,
+                length,
+            });
         }
         if length.is_nan() || length <= 0.0 {
             return Err(length);
@@ -105,14 +126,31 @@ impl SpringLaw {
         let turn = (Mat3::identity() - ee) / length;
         let by_place = -self.stiffness * ee - self.damping * e * (turn * speed).transpose() - tension * turn;
         let (by_velocity, dashpot_power) = (-self.damping * ee, -self.damping * rate * rate);
-        Ok(SpringLoads { force: -tension * e, by_place, by_velocity, dashpot_power, length })
+        Ok(SpringLoads { force: -tension * e, by_place, by_velocity, dashpot_power, anchor_power: 0.0, length })
+    }
+}
+
+impl Anchor {
+    /// One at rest.
+    pub fn at_rest(place: Vec3) -> Self {
+        Self { start: place, motion: Arc::default() }
+    }
+
+    /// Where it is at a time [s], and how it moves there.
+    pub fn at(&self, time: f64) -> (Vec3, Vec3) {
+        if self.motion.is_fixed() {
+            return (self.start, Vec3::zeros());
+        }
+        let carried = self.motion.carriage(time);
+        let place = carried.place(&self.start);
+        (place, carried.velocity_at(&place))
     }
 }
 
 impl Interaction for Spring {
     fn parties(&self) -> [Party; 2] {
-        self.ends.map(|end| match end {
-            Attachment::Body { index, .. } => Party::Body(index),
+        self.ends.each_ref().map(|end| match end {
+            Attachment::Body { index, .. } => Party::Body(*index),
             Attachment::Anchor(_) => Party::Space,
         })
     }
@@ -123,11 +161,11 @@ impl Interaction for Spring {
 }
 
 impl Attachment {
-    /// The material point of a body (from its centre of mass), or the place of an anchor [m].
+    /// The material point of a body (from its centre of mass), or where an anchor is before any motion [m].
     pub fn point(&self) -> Vec3 {
         match self {
             Self::Body { point, .. } => *point,
-            Self::Anchor(place) => *place,
+            Self::Anchor(anchor) => anchor.start,
         }
     }
 
@@ -135,7 +173,7 @@ impl Attachment {
     fn of_party(&self, party: Party) -> Self {
         match (self, party) {
             (Self::Body { point, .. }, Party::Body(index)) => Self::Body { index, point: *point },
-            _ => *self,
+            _ => self.clone(),
         }
     }
 }
@@ -154,12 +192,25 @@ impl Spring {
 
     /// From a material point of a body to a place in space.
     pub fn to_anchor(body: usize, point: Vec3, anchor: Vec3, law: SpringLaw) -> Self {
+        Self::to(body, point, Anchor::at_rest(anchor), law)
+    }
+
+    /// From a material point of a body to an anchor.
+    pub fn to(body: usize, point: Vec3, anchor: Anchor, law: SpringLaw) -> Self {
         Self { ends: [Attachment::Body { index: body, point }, Attachment::Anchor(anchor)], cell: HERE, law }
+    }
+
+    /// Its anchor; none between two bodies.
+    pub fn anchor(&self) -> Option<&Anchor> {
+        self.ends.iter().find_map(|end| match end {
+            Attachment::Body { .. } => None,
+            Attachment::Anchor(anchor) => Some(anchor),
+        })
     }
 
     /// The same spring between parties that have other indices.
     pub(crate) fn of_parties(&self, parties: [Party; 2]) -> Self {
-        Self { ends: [0, 1].map(|end| self.ends[end].of_party(parties[end])), ..*self }
+        Self { ends: [0, 1].map(|end| self.ends[end].of_party(parties[end])), ..self.clone() }
     }
 
     /// Its two bodies; none where one end is an anchor.
@@ -168,28 +219,35 @@ impl Spring {
         Some([one?, other?])
     }
 
-    /// Its length l [m], given where its bodies are in their cells.
+    /// Its length l [m] at the start, given where its bodies are in their cells.
     pub fn length(&self, lattice: &Lattice, placement: impl Fn(usize) -> Placement) -> f64 {
-        let [one, other] = self.ends.map(|end| match end {
-            Attachment::Body { index, point } => placement(index).place(&point),
-            Attachment::Anchor(place) => place,
+        let [one, other] = self.ends.each_ref().map(|end| match end {
+            Attachment::Body { index, point } => placement(*index).place(point),
+            Attachment::Anchor(anchor) => anchor.at(0.0).0,
         });
         (one - other - lattice.place(self.cell)).norm()
     }
 
-    /// Force and derivatives, given how its bodies move in their cells.
+    /// Force and derivatives at a time [s], given how its bodies move in their cells.
     ///
     /// # Errors
     /// The length [m], where the direction is lost (l = 0 with l₀ > 0 or a dashpot).
-    pub fn loads<'a>(&self, lattice: &Lattice, motion: impl Fn(usize) -> &'a BodyMotion) -> Result<SpringLoads, f64> {
-        let [one, other] = self.ends.map(|end| match end {
+    pub fn loads<'a>(
+        &self,
+        lattice: &Lattice,
+        time: f64,
+        motion: impl Fn(usize) -> &'a BodyMotion,
+    ) -> Result<SpringLoads, f64> {
+        let [one, other] = self.ends.each_ref().map(|end| match end {
             Attachment::Body { index, point } => {
-                let BodyMotion { placement, velocity } = motion(index);
-                (placement.place(&point), velocity.at(&point))
+                let BodyMotion { placement, velocity } = motion(*index);
+                (placement.place(point), velocity.at(point))
             }
-            Attachment::Anchor(place) => (place, Vec3::zeros()),
+            Attachment::Anchor(anchor) => anchor.at(time),
         });
-        self.law.loads(one.0 - other.0 - lattice.place(self.cell), one.1 - other.1)
+        let loads = self.law.loads(one.0 - other.0 - lattice.place(self.cell), one.1 - other.1)?;
+        let anchor_power = if self.anchor().is_some() { loads.force.dot(&other.1) } else { 0.0 };
+        Ok(SpringLoads { anchor_power, ..loads })
     }
 }
 

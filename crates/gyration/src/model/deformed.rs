@@ -3,7 +3,7 @@
 use super::Model;
 use crate::body::Body;
 use crate::lattice::Lattice;
-use crate::load::{Attachment, Spring};
+use crate::load::{Anchor, Attachment, Spring};
 use crate::tensor::{Mat3, Vec3};
 use std::sync::Arc;
 
@@ -50,9 +50,11 @@ fn moved(body: &Arc<Body>, strain: &Mat3) -> Arc<Body> {
 
 /// A spring whose anchor has gone along.
 fn led(spring: &Spring, strain: &Mat3) -> Spring {
-    let ends = spring.ends.map(|end| match end {
-        Attachment::Anchor(place) => Attachment::Anchor(strain * place),
-        Attachment::Body { .. } => end,
+    let ends = spring.ends.each_ref().map(|end| match end {
+        Attachment::Anchor(anchor) => {
+            Attachment::Anchor(Anchor { start: strain * anchor.start, motion: anchor.motion.clone() })
+        }
+        Attachment::Body { .. } => end.clone(),
     });
-    Spring { ends, ..*spring }
+    Spring { ends, ..spring.clone() }
 }

@@ -13,7 +13,7 @@ use gyration::dynamics::{Workspace, rates};
 use gyration::fluid::{FixedForm, Fluid, Form, History, Inclusion};
 use gyration::kinematics::Placement;
 use gyration::load::{
-    Applied, BodyForce, Couple, FieldOfForce, Formula, Frame, FrictionEntry, FrictionMatrix, LinearResistance,
+    Anchor, Applied, BodyForce, Couple, FieldOfForce, Formula, Frame, FrictionEntry, FrictionMatrix, LinearResistance,
     MassFriction, Mat12, OwnForces, OwnFriction, PointForce, Potential, Spring, SpringLaw,
 };
 use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
@@ -93,15 +93,21 @@ pub struct Variant {
     pub frame: Frame,
 }
 
-/// The model whose bodies feel all laws of both supports, and hang on two springs each.
+/// The model whose bodies feel all laws of both supports, and hang on two springs each, one of them on an anchor that
+/// swings round.
 pub fn attached(model: Model, exponents: [f64; 4], measure: AreaMeasure) -> Model {
     let bodies = 0..model.bodies.len();
     let law_set = Arc::new(LawSet::new(measure, laws(exponents)));
     let contacts = bodies.clone().flat_map(|body| [0, 1].map(|support| Contact::new(body, support, law_set.clone())));
     let directed = SpringLaw { stiffness: 1.7, rest_length: 0.6, damping: 0.4 };
     let plain = SpringLaw { rest_length: 0.0, damping: 0.0, ..directed };
-    let (point, anchor) = (Vec3::new(0.1, 0.2, -0.3), Vec3::new(1.0, 2.0, 3.0));
-    let springs = bodies.flat_map(|body| [directed, plain].map(|law| Spring::to_anchor(body, point, anchor, law)));
+    let (point, start) = (Vec3::new(0.1, 0.2, -0.3), Vec3::new(1.0, 2.0, 3.0));
+    let turn = MotionPart::Rotation { axis: Vec3::y(), point: Vec3::x(), rate: 0.8 };
+    let swing = MotionPart::Oscillation { direction: Vec3::z(), amplitude: 0.3, frequency: 0.4, phase: 0.2 };
+    let anchor = Anchor { start, motion: Arc::new(SupportMotion::new(vec![turn, swing])) };
+    let springs = bodies.flat_map(|body| {
+        [Spring::to(body, point, anchor.clone(), directed), Spring::to_anchor(body, point, start, plain)]
+    });
     let (contacts, springs) = (contacts.collect(), springs.collect());
     model.with_contacts(contacts).with_springs(springs)
 }
