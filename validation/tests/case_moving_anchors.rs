@@ -1,9 +1,10 @@
 //! Springs whose anchors move as prescribed.
 //!
-//! The anchor is a, the force on the body k(a − x) + c(ȧ − ẋ). Under a = A sin Ωt, steady, u = A |H| sin(Ωt + φ), H =
-//! (k
-//! + icΩ)/(k − mΩ² + icΩ); of a = vt from rest, u = vt − (v/ω) sin ωt; of an anchor that goes round at w on a radius ρ,
-//! a circle of kρ/(k − mw²). Who moves the anchor does ∫F·ȧ dt.
+//!   m ü = k(a − u) + c(ȧ − u̇),   H = (k + icΩ)/(k − mΩ² + icΩ)
+//!
+//! Under a = A sin Ωt the body goes, steady, as A H exp(iΩt), shifted by a quarter; of a = vt, from rest, as vt − (v/ω)
+//! sin ωt; of an anchor that goes round at w on a radius ρ on a circle of kρ/(k − mw²). Who moves the anchor does ∫F·ȧ
+//! dt.
 
 use gyration_validation::{Case, Experiment, Run, largest};
 use std::f64::consts::TAU;
