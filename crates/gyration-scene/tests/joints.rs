@@ -18,7 +18,7 @@ fn joint(lines: &str) -> String {
 #[test]
 fn what_cannot_be_joined_is_refused_with_the_fix() {
     let rows = [
-        ("between = [\"a\", §\"c\"]\nkind = \"ball\"", "between.1", "no body \"c\"", "a, b, space"),
+        ("between = [\"a\", §\"c\"]\nkind = \"ball\"", "between.1", "no body or support \"c\"", "a, b, space"),
         ("between = [\"a\", §\"a\"]\nkind = \"ball\"", "between.1", "closes nothing", "two different"),
         ("between = [\"space\", §\"space\"]\nkind = \"ball\"", "between.1", "closes nothing", "name a body"),
         ("between = [\"a\", \"b\"]\nkind = §\"rope\"", "kind", "rope", "ball"),
@@ -76,8 +76,8 @@ fn what_cannot_be_joined_is_refused_with_the_fix() {
     let missing = format!("{TIME}{BOXES}§[[joint]]\nname = \"j\"\nbetween = [\"a\", \"b\"]\nkind = \"slider\"\n");
     assert_error(&missing, "joint.j.axis", "is missing", "axes of the first");
     let support =
-        format!("{TIME}{TABLE}{BOXES}[[joint]]\nname = \"j\"\nbetween = [\"a\", §\"table\"]\nkind = \"ball\"\n");
-    assert_error(&support, "joint.j.between.1", "is a support", "\"space\"");
+        format!("{TIME}{TABLE}{BOXES}[[joint]]\nname = \"j\"\nbetween = [\"space\", §\"table\"]\nkind = \"ball\"\n");
+    assert_error(&support, "joint.j.between.1", "is a body: the joint closes nothing", "name a body");
     let space = BOXES.replacen("name = \"b\"", "name = \"space\"", 1);
     let text = format!("{TIME}{space}[[joint]]\nname = \"j\"\nbetween = [\"a\", §\"space\"]\nkind = \"ball\"\n");
     assert_error(&text, "joint.j.between.1", "is space itself", "another name");

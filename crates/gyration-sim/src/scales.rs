@@ -98,7 +98,8 @@ fn pushed(at: &BodyAt, slopes: &[f64], scratch: &mut Scratch) -> Result<f64, Ina
     let supports = model.contacts_of(index).map(|contact| model.supports[contact.support].motion.bound(place).speed);
     let solids = model.rules().with_supports_of(index).flat_map(|rule| rule.supports.iter());
     let solids = solids.map(|support| model.solid_supports[*support].largest_speed());
-    let anchors = model.springs_of(index).filter_map(|end| end.interaction.anchor());
+    let springs = model.springs_of(index).filter_map(|end| end.interaction.anchor());
+    let anchors = springs.chain(model.joints_of(index).map(|end| &end.interaction.anchor));
     let anchors = anchors.map(|anchor| anchor.motion.bound(&anchor.start).speed);
     let carried = supports.chain(solids).chain(anchors).fold(0.0, f64::max);
     Ok((acceleration.max(forces / body.solid.mass.mass) * body.size).sqrt().max(carried))

@@ -253,8 +253,11 @@ impl<'a> Load<'a> {
             }
             Self::Bond(end) if end.interaction.works() => vec![Work::Load],
             // What the error of a step leaves: its force does no work.
-            Self::Joint(end) if end.interaction.motor.works() => vec![Work::Constraint, Work::Load],
-            Self::Joint(_) => vec![Work::Constraint],
+            Self::Joint(end) => {
+                let moves = !end.interaction.anchor.motion.is_fixed();
+                let driven = end.interaction.motor.works().then_some(Work::Load);
+                [Work::Constraint].into_iter().chain(driven).chain(moves.then_some(Work::Support)).collect()
+            }
             Self::Couple(_) | Self::Applied(_) | Self::BodyForce(_) | Self::PointForce(_) => vec![Work::Load],
             Self::OwnFriction(_) | Self::MassFriction(_) => vec![Work::Viscosity],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],

@@ -9,6 +9,7 @@ use gyration::kinematics::{Placement, Quaternion};
 use gyration::load::{Frame, Interaction, Party, SpringLaw};
 use gyration::model::Model;
 use gyration::state::{RigidStart, Start, State};
+use gyration::support::{MotionPart, SupportMotion};
 use gyration::tensor::{Mat3, Vec3, axial};
 use gyration_expression::Expression;
 use std::sync::Arc;
@@ -28,15 +29,23 @@ fn joint(kind: JointKind, parties: [Party; 2], seed: f64) -> Joint {
     Joint::new(("joint", kind), parties, points, frames, 0.7)
 }
 
-/// A row of bodies, each joined to the next, the first to space; those that deform by balls and distances, of which all
-/// kinds of bodies have them.
+/// How places of space are carried: two turns and a swing.
+fn carriage() -> Arc<SupportMotion> {
+    let turn = |axis: Vec3, point, rate| MotionPart::Rotation { axis: axis.normalize(), point, rate };
+    let swing = MotionPart::Oscillation { direction: Vec3::z(), amplitude: 0.2, frequency: 0.5, phase: 0.3 };
+    let turns = [turn(Vec3::new(0.2, 1.0, 0.3), Vec3::x(), 0.7), turn(Vec3::z(), Vec3::zeros(), -0.4)];
+    Arc::new(SupportMotion::new(turns.into_iter().chain([swing]).collect()))
+}
+
+/// A row of bodies, each joined to the next, the first to a place that is carried; those that deform by balls and
+/// distances, of which all kinds of bodies have them.
 fn row(bodies: &[Body]) -> Vec<Joint> {
     let deforms = |body: usize| bodies[body].affine().is_some();
     let next = |k: usize| {
         let kind = if deforms(k) || deforms(k + 1) { KINDS[k % 3] } else { KINDS[k % 5] };
         joint(kind, [Party::Body(k), Party::Body(k + 1)], k as f64)
     };
-    let to_space = joint(JointKind::Ball, [Party::Body(0), Party::Space], 0.4);
+    let to_space = joint(JointKind::Ball, [Party::Body(0), Party::Space], 0.4).carried(carriage());
     std::iter::once(to_space).chain((0..bodies.len() - 1).map(next)).collect()
 }
 
@@ -73,7 +82,8 @@ fn blocks_of_joined_bodies_of_every_kind_are_derivatives_of_the_rates() {
 #[test]
 fn blocks_of_rigid_bodies_under_every_joint_are_derivatives_of_the_rates() {
     let all = rigid_bodies(6);
-    let joints = row(&all);
+    let hinge = joint(JointKind::Hinge, [Party::Body(5), Party::Space], 2.3).carried(carriage());
+    let joints = row(&all).into_iter().chain([hinge]).collect();
     let model = attached(
         Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), all),
         [6.0, 5.0, 4.0, 3.0],
@@ -100,8 +110,12 @@ fn row_at(model: &Model, state: &State) -> Vec<Joint> {
         let apart = if joint.kind == JointKind::Distance { Vec3::new(0.3, 0.2, -0.4) } else { Vec3::zeros() };
         let frame = frame_about(&vector(0.6));
         let frames = [one.gradient.try_inverse().unwrap() * frame, inverse * frame];
-        let points = [joint.points[0], inverse * (x - y + apart)];
-        Joint::new(("joint", joint.kind), parties, points, frames, apart.norm())
+        let mut points = [joint.points[0], inverse * (x - y + apart)];
+        if parties[1].body().is_none() {
+            points[1] = joint.anchor.motion.carriage(state.time).start_of(&points[1]);
+        }
+        let motion = joint.anchor.motion.clone();
+        Joint::new(("joint", joint.kind), parties, points, frames, apart.norm()).carried(motion)
     };
     row(&bodies).into_iter().map(at).collect()
 }

@@ -7,6 +7,7 @@ use super::body::{AssembledBody, lever};
 use super::context::SceneContext;
 use super::motor::WrittenMotor;
 use super::start::placement;
+use super::support::{AssembledSupports, Begins};
 use crate::check::{PartialScene, Placed, Reporter, SPACE, direction};
 use crate::file::{self, JointWord};
 use crate::key::Key;
@@ -31,7 +32,7 @@ pub(super) struct PlacedJoint {
 /// The joints; notes what is wrong with them.
 pub(super) fn joints(
     partial: &PartialScene,
-    assembled: &[Option<AssembledBody>],
+    (assembled, supports): (&[Option<AssembledBody>], &AssembledSupports),
     context: &SceneContext,
     reporter: &mut Reporter<'_>,
 ) -> Vec<PlacedJoint> {
@@ -45,9 +46,10 @@ pub(super) fn joints(
             continue;
         }
         let ends = value.between.each_ref().map(|name| match named.get(name) {
-            Some(&index) => Some(End { party: Party::Body(index), body: assembled[index].as_ref() }),
-            None if name == SPACE => Some(End { party: Party::Space, body: None }),
-            None => None,
+            Some(&index) => Some(End { party: Party::Body(index), body: assembled[index].as_ref(), support: None }),
+            None if name == SPACE => Some(End { party: Party::Space, body: None, support: None }),
+            // A joint to a support is one to a place that moves as the support does.
+            None => supports.begins(name).map(|begins| End { party: Party::Space, body: None, support: Some(begins) }),
         });
         let [Some(one), Some(other)] = ends else { continue };
         if one.party == other.party {
@@ -75,8 +77,9 @@ pub(super) fn give_sizes(assembled: &mut [Option<AssembledBody>], joints: &[Plac
 /// What a joint is at.
 struct End<'a> {
     party: Party,
-    /// None of space.
+    /// None of space and of a support.
     body: Option<&'a AssembledBody>,
+    support: Option<&'a Begins>,
 }
 
 /// A joint as it is written.
@@ -88,14 +91,22 @@ struct Written<'a> {
 
 impl End<'_> {
     fn placement(&self) -> Placement {
-        let space = Placement { position: Vec3::zeros(), gradient: Mat3::identity() };
-        self.body.map_or(space, |body| placement(&body.start))
+        match (self.body, self.support) {
+            (Some(body), _) => placement(&body.start),
+            (None, Some(support)) => Placement { position: support.position, gradient: support.orientation.rotation() },
+            (None, None) => Placement { position: Vec3::zeros(), gradient: Mat3::identity() },
+        }
+    }
+
+    /// By how much a support has moved at the start \[m\].
+    fn displacement(&self) -> Vec3 {
+        self.support.map_or_else(Vec3::zeros, |support| support.motion.displacement(0.0))
     }
 
     /// How it is turned; none of one that deforms.
     fn orientation(&self) -> Option<Quaternion> {
         match self.body.map(|body| &body.start) {
-            None => Some(Quaternion::IDENTITY),
+            None => Some(self.support.map_or(Quaternion::IDENTITY, |support| support.orientation)),
             Some(Start::Rigid(start)) => Some(start.orientation),
             Some(Start::Affine(..) | Start::Contractile(..)) => None,
         }
@@ -117,7 +128,9 @@ impl Written<'_> {
         let axis = self.axis(kind, reporter);
         let can_be = [0, 1].map(|end| self.can_join(kind, &points[end], end, reporter));
         let (axis, true) = (axis?, can_be[0] && can_be[1]) else { return None };
-        let places = [0, 1].map(|end| ends[end].placement().place(&points[end]));
+        let anchored = [0, 1].map(|end| ends[end].placement().place(&points[end]));
+        // An anchor may have left its place at the start.
+        let places = [0, 1].map(|end| anchored[end] + ends[end].displacement());
         let length = (places[1] - places[0]).norm();
         if kind == JointKind::Distance && length == 0.0 {
             let [x, y, z] = places[0].into();
@@ -125,7 +138,14 @@ impl Written<'_> {
             reporter.note(&key.key("points"), message, "write kind = \"ball\", or move a point");
             return None;
         }
-        let [first, second] = self.frames(&axis, kind);
+        let frames = self.frames(&axis, kind);
+        // What is no body is joined at its place in space, in the axes of space.
+        let in_space = |end: usize| ends[end].body.is_none();
+        let [first, second] = [0, 1].map(|end| match in_space(end) {
+            true => ends[end].placement().gradient * frames[end],
+            false => frames[end],
+        });
+        let points = [0, 1].map(|end| if in_space(end) { anchored[end] } else { points[end] });
         let [one, other] = [0, 1].map(|end| ends[end].party);
         let label = (value.name.as_str(), kind);
         let joint = match one {
@@ -134,6 +154,8 @@ impl Written<'_> {
                 Joint::new(label, [other, one], [points[1], points[0]], [second, first], length).reversed()
             }
         };
+        let motion = ends.iter().find_map(|end| end.support).map(|support| support.motion.clone());
+        let joint = motion.into_iter().fold(joint, Joint::carried);
         let start = match kind {
             JointKind::Hinge => self.angle(&axis),
             _ => (places[1] - places[0]).dot(&(ends[0].placement().gradient * axis)),

@@ -69,7 +69,7 @@ impl JointStart<'_> {
         let Self { model, placed: PlacedJoint { key, joint, .. }, state } = self;
         let place = |end: usize| match joint.parties()[end] {
             Party::Body(body) => state.motion(model, body).placement.place(joint.point(end)),
-            Party::Support(_) | Party::SolidSupport(_) | Party::Space => joint.anchor,
+            Party::Support(_) | Party::SolidSupport(_) | Party::Space => joint.anchor.at(state.time).0,
         };
         let reach = |end: usize| place(end).norm();
         let size = self.bodies().map(|body| model.bodies[body].size).fold(0.0, f64::max);

@@ -13,6 +13,8 @@ use gyration::mass::MassProperties;
 use gyration::shape::Shape;
 use gyration::solid_support::SolidSupport;
 use gyration::support::{MotionPart, Support as Plane, SupportMotion};
+use gyration::tensor::Vec3;
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -25,6 +27,16 @@ pub(super) struct AssembledSupports {
     pub(super) solids: Vec<Option<SolidSupport>>,
     /// Which of these each well-formed support of the file is.
     parties: Vec<Party>,
+    /// Where each of these begins, by name: a plane in space.
+    begins: HashMap<String, Begins>,
+}
+
+/// Where the axes of a support are before any motion, and how it moves.
+#[derive(Debug, Clone)]
+pub(super) struct Begins {
+    pub position: Vec3,
+    pub orientation: Quaternion,
+    pub motion: Arc<SupportMotion>,
 }
 
 impl AssembledSupports {
@@ -33,14 +45,36 @@ impl AssembledSupports {
         let mut this = Self::default();
         for placed in &partial.supports {
             if placed.value.shape.is_some() {
+                let turned = match &placed.value.orientation {
+                    None => Some(Quaternion::IDENTITY),
+                    Some(written) => orientation(written, &placed.key.key("orientation"), reporter),
+                };
+                let solid = solid(placed, turned, base, reporter);
+                if let Some((solid, orientation)) = solid.as_ref().zip(turned) {
+                    this.begin(&placed.value, (solid.start.position, orientation), &solid.motion);
+                }
                 this.parties.push(Party::SolidSupport(this.solids.len()));
-                this.solids.push(solid(placed, base, reporter));
+                this.solids.push(solid);
             } else {
+                let plane = plane(&placed.value);
+                if let Some(plane) = &plane {
+                    this.begin(&placed.value, (Vec3::zeros(), Quaternion::IDENTITY), &plane.motion);
+                }
                 this.parties.push(Party::Support(this.planes.len()));
-                this.planes.push(plane(&placed.value));
+                this.planes.push(plane);
             }
         }
         this
+    }
+
+    fn begin(&mut self, written: &Support, (position, orientation): (Vec3, Quaternion), motion: &SupportMotion) {
+        let begins = Begins { position, orientation, motion: Arc::new(motion.clone()) };
+        self.begins.insert(written.name.clone(), begins);
+    }
+
+    /// Where the axes of a support of this name are before any motion; none of one with an error.
+    pub(super) fn begins(&self, name: &str) -> Option<&Begins> {
+        self.begins.get(name)
     }
 
     /// Which one a well-formed support of the file is.
@@ -57,12 +91,13 @@ fn plane(support: &Support) -> Option<Plane> {
 }
 
 /// A support with a shape.
-fn solid(placed: &Placed<Support>, base: &Path, reporter: &mut Reporter<'_>) -> Option<SolidSupport> {
+fn solid(
+    placed: &Placed<Support>,
+    turned: Option<Quaternion>,
+    base: &Path,
+    reporter: &mut Reporter<'_>,
+) -> Option<SolidSupport> {
     let Placed { key, value, .. } = placed;
-    let turned = match &value.orientation {
-        None => Some(Quaternion::IDENTITY),
-        Some(written) => orientation(written, &key.key("orientation"), reporter),
-    };
     let shape = ShapeBuilder { base, reporter }.shape(value.shape.as_ref()?, &key.key("shape"), Some(1.0))?;
     if !is_solid(&shape, &key.key("shape"), reporter) {
         return None;

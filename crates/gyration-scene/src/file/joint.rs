@@ -1,4 +1,4 @@
-//! `[[joint]]`: exact constraints between two bodies, or a body and space.
+//! `[[joint]]`: exact constraints between two bodies, or a body and a support or space.
 
 use super::affine::Entry;
 use crate::quantity::{AnyQuantity, Length, NonNegative, Positive};
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 pub struct Joint {
     /// Name, by which it is recorded.
     pub name: String,
-    /// Names of the two bodies, or of one and "space".
+    /// Names of the two bodies, or of one and a support or "space".
     pub between: [String; 2],
     /// How it joins them.
     pub kind: JointWord,

@@ -73,6 +73,7 @@ pub(crate) fn horizon(
         step = step.min(DRIVE_PART / frequency);
     }
     let anchors = model.springs().iter().filter_map(Spring::anchor);
+    let anchors = anchors.chain(model.joints().iter().map(|joint| &joint.anchor));
     for frequency in anchors.map(|anchor| anchor.motion.highest_frequency()).filter(|frequency| *frequency > 0.0) {
         step = step.min(PERIOD_PART / frequency);
     }

@@ -97,6 +97,10 @@ impl Acting {
                 self.powers[Work::Constraint] += joint.kept[end.end].power(&velocity.velocity, &velocity.gradient_rate);
                 if end.counts() {
                     self.powers[Work::Load] += joint.motor.power;
+                    if let Some([kept, all]) = end.interaction.powers_on_support(at.time, joint) {
+                        self.powers[Work::Constraint] += kept;
+                        self.powers[Work::Support] -= all;
+                    }
                 }
                 self.total += joint.on(end.end);
             }

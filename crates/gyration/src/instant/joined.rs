@@ -6,7 +6,6 @@ use crate::joint::{Jet, Joint, JointLoads, MotorFault, MotorSlopes};
 use crate::load::Interaction;
 use crate::model::Model;
 use gyration_expression::Scratch;
-use nalgebra::Matrix3x4;
 
 /// q and q̇ of a body, whose velocities do not change; p₀ is zero.
 pub(crate) fn jet(at: &MotionAt) -> Jet {
@@ -18,15 +17,17 @@ pub(crate) fn jet(at: &MotionAt) -> Jet {
     jet
 }
 
-/// p₀ of the second party of a joint, or its anchor, from p₀ of the first \[m\], in the first column.
-pub(crate) fn apart<'a>(joint: &Joint, at: impl Fn(usize) -> MotionAt<'a>) -> Matrix3x4<f64> {
+/// What the second party of a joint adds to the jet of its body, whose p₀ is zero: p₀ from that of the first \[m\], and
+/// of what is no body all of it.
+pub(crate) fn second<'a>(joint: &Joint, at: impl Fn(usize) -> MotionAt<'a>) -> Jet {
     let [one, other] = joint.parties().map(|party| party.body().map(&at));
-    let mut apart = Matrix3x4::zeros();
-    if let Some(one) = one {
-        let place = other.map_or_else(|| one.place_from_center(&joint.anchor), |other| other.from(&one));
-        apart.set_column(0, &place);
-    }
-    apart
+    let Some(one) = one else { return Jet::space() };
+    let (mut jet, place) = match other {
+        Some(other) => (Jet::zeros(), other.from(&one)),
+        None => (joint.prescribed(one.time), one.place_from_center(&joint.anchor.at(one.time).0)),
+    };
+    jet.place.set_column(0, &place);
+    jet
 }
 
 /// What the motor of a joint does, and its derivatives where they are wanted.
@@ -45,8 +46,8 @@ pub(super) fn driven(
         return Ok((JointLoads::default(), None));
     }
     let at = |body: usize| motions.at(model, body);
-    let mut jets = joint.parties().map(|party| party.body().map_or_else(Jet::space, |body| jet(&at(body))));
-    jets[1].place += apart(joint, at);
+    let mut jets = joint.parties().map(|party| party.body().map_or_else(Jet::zeros, |body| jet(&at(body))));
+    jets[1] += second(joint, at);
     let loads = joint.drive(&jets, motions.time(), scratch).map_err(|fault| {
         let body = joint.parties()[0].body().unwrap_or_default();
         match fault {

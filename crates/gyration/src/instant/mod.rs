@@ -35,7 +35,7 @@ use crate::model::Model;
 use crate::pair::PairScratch;
 use crate::tensor::Vec3;
 use between::{Between, Looking, Wanted};
-pub(crate) use joined::{apart, jet};
+pub(crate) use joined::{jet, second};
 pub(crate) use motions::Motions;
 use slabs::Remembered;
 use std::ops::Deref;

@@ -1,4 +1,4 @@
-//! Joints: exact constraints between two bodies, or a body and space.
+//! Joints: exact constraints between two bodies, or a body and a place in space, which may move as prescribed.
 //!
 //! | kind     | equations                                                                            |
 //! |----------|--------------------------------------------------------------------------------------|
@@ -23,7 +23,8 @@ pub use graph::JointGraph;
 pub use motor::{ANGLE_NAMES, Motor, MotorAt, MotorFault, Stop, StopLaw, WAY_NAMES};
 pub use row::{Jet, Row};
 
-use crate::load::{Interaction, InteractionEnd, Loads, Mat12, Party};
+use crate::load::{Anchor, Interaction, InteractionEnd, Loads, Mat12, Party};
+use crate::support::SupportMotion;
 use crate::tensor::{Mat3, Vec3, axial};
 use gyration_expression::Scratch;
 use nalgebra::{Matrix3x4, SVector};
@@ -58,8 +59,8 @@ pub struct Joint {
     pub kind: JointKind,
     /// X and Y, each from its centre of mass; of space zero, which is the anchor [m].
     pub points: [Vec3; 2],
-    /// The place of the joint in space, where the second party is space [m].
-    pub anchor: Vec3,
+    /// The place of the joint in space, where the second party is space.
+    pub anchor: Anchor,
     /// Whether the scene names them the other way round, and so is told of the force on the second.
     pub is_reversed: bool,
     /// What acts along what it leaves free.
@@ -140,8 +141,8 @@ impl Joint {
         length: f64,
     ) -> Self {
         let (points, anchor) = match parties[1].body() {
-            Some(_) => (points, Vec3::zeros()),
-            None => ([points[0], Vec3::zeros()], points[1]),
+            Some(_) => (points, Anchor::at_rest(Vec3::zeros())),
+            None => ([points[0], Vec3::zeros()], Anchor::at_rest(points[1])),
         };
         let [first, second] = frames.map(|frame| [0, 1, 2].map(|k| frame.column(k).into_owned()));
         let together = [Vec3::x(), Vec3::y(), Vec3::z()].map(|along| Row::meet(&points, along));
@@ -175,6 +176,12 @@ impl Joint {
         Self { is_reversed: true, ..self }
     }
 
+    /// The same joint to a place that moves so.
+    #[must_use]
+    pub fn carried(self, motion: Arc<SupportMotion>) -> Self {
+        Self { anchor: Anchor { motion, ..self.anchor }, ..self }
+    }
+
     /// The same joint with what acts along what it leaves free.
     #[must_use]
     pub fn driven(self, motor: Motor) -> Self {
@@ -195,6 +202,37 @@ impl Joint {
     /// Its equations.
     pub fn rows(&self) -> &[Row] {
         &self.rows
+    }
+
+    /// q, q̇ and q̈ of space or a support as its second party at a time [s]: p₀ is the anchor, and zero.
+    pub(crate) fn prescribed(&self, time: f64) -> Jet {
+        let Anchor { start, motion } = &self.anchor;
+        let mut jet = Jet::space();
+        if !motion.is_fixed() {
+            let carried = motion.carriage(time);
+            let place = carried.place(start);
+            let [rate, second] = carried.rotation_rates();
+            let acceleration = carried.turning_acceleration_at(&place) + motion.acceleration(time);
+            let columns = |jet: &mut Matrix3x4<f64>, vector: &Vec3, matrix: &Mat3| {
+                jet.set_column(0, vector);
+                jet.fixed_view_mut::<3, 3>(0, 1).copy_from(matrix);
+            };
+            columns(&mut jet.place, &Vec3::zeros(), &carried.rotation);
+            columns(&mut jet.rate, &carried.velocity_at(&place), &rate);
+            columns(&mut jet.acceleration, &acceleration, &second);
+        }
+        jet
+    }
+
+    /// The power [W] that these loads have on what moves as prescribed, of what keeps its equations and of all; none
+    /// where nothing does.
+    pub(crate) fn powers_on_support(&self, time: f64, loads: &JointLoads) -> Option<[f64; 2]> {
+        if self.anchor.motion.is_fixed() {
+            return None;
+        }
+        let rate = self.prescribed(time).rate;
+        let (velocity, gradient_rate) = (rate.column(0).into_owned(), rate.fixed_view::<3, 3>(0, 1).into_owned());
+        Some([loads.kept[1], loads.on(1)].map(|loads| loads.power(&velocity, &gradient_rate)))
     }
 
     /// Adds what it does with these multipliers.
@@ -283,7 +321,7 @@ impl Joint {
 
     /// The material point of one of its parties, the anchor of space.
     pub fn point(&self, end: usize) -> &Vec3 {
-        if self.parties[end].body().is_some() { &self.points[end] } else { &self.anchor }
+        if self.parties[end].body().is_some() { &self.points[end] } else { &self.anchor.start }
     }
 
     /// Force [N] and torque about its point [N m] on one of its parties, in space.

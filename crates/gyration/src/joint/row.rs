@@ -12,6 +12,7 @@
 use crate::load::{Mat12, add_blocks};
 use crate::tensor::{Mat3, Vec3};
 use nalgebra::{Matrix3x4, Vector4};
+use std::ops::AddAssign;
 
 /// q, its first and its second derivative in time, of one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,6 +75,14 @@ pub(super) fn point(x: &Vec3) -> Vector4<f64> {
 /// A direction a, on the coordinates of its body.
 pub(super) fn direction(a: &Vec3) -> Vector4<f64> {
     Vector4::new(0.0, a.x, a.y, a.z)
+}
+
+impl AddAssign for Jet {
+    fn add_assign(&mut self, other: Self) {
+        self.place += other.place;
+        self.rate += other.rate;
+        self.acceleration += other.acceleration;
+    }
 }
 
 impl Row {

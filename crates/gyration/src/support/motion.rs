@@ -6,7 +6,7 @@
 //! carried out one after the other, the first one first, each about an axis through a point where that is at rest.
 
 use crate::kinematics::Quaternion;
-use crate::tensor::{Mat3, Vec3};
+use crate::tensor::{Mat3, Vec3, cross_matrix};
 use std::f64::consts::TAU;
 
 /// One of the motions that add up to that of a support.
@@ -91,6 +91,14 @@ impl MotionPart {
             Self::Rotation { .. } => Vec3::zeros(),
         }
     }
+
+    /// The acceleration of that [m/s²].
+    fn acceleration(&self, time: f64) -> Vec3 {
+        match self {
+            Self::Oscillation { frequency, .. } => -(TAU * frequency).powi(2) * self.displacement(time),
+            Self::Velocity(_) | Self::Rotation { .. } => Vec3::zeros(),
+        }
+    }
 }
 
 impl SupportMotion {
@@ -127,6 +135,11 @@ impl SupportMotion {
     /// The velocity [m/s] of its translations at time t.
     pub fn velocity(&self, time: f64) -> Vec3 {
         self.parts.iter().map(|part| part.velocity(time)).sum()
+    }
+
+    /// The acceleration [m/s²] of its translations at time t.
+    pub fn acceleration(&self, time: f64) -> Vec3 {
+        self.parts.iter().map(|part| part.acceleration(time)).sum()
     }
 
     /// Where its points have come to at time t, and how they move.
@@ -237,6 +250,12 @@ impl Carriage {
         acceleration + spin_rate.cross(&arm) + self.spin.cross(&self.spin.cross(&arm))
     }
 
+    /// Ṙ and R̈.
+    pub fn rotation_rates(&self) -> [Mat3; 2] {
+        let (spin, spin_rate) = (cross_matrix(&self.spin), cross_matrix(&self.turning[0]));
+        [spin * self.rotation, (spin_rate + spin * spin) * self.rotation]
+    }
+
     /// Where the point that is at a place was before any motion [m].
     pub fn start_of(&self, place: &Vec3) -> Vec3 {
         self.rotation.tr_mul(&(place - self.shift))
@@ -280,10 +299,15 @@ mod tests {
             // Of second differences over 1e-4 s the fourth derivative leaves 0.05 m (6π/s)⁴ (1e-4 s)²/12 = 5e-6.
             let shaken = motion.translation_bound().acceleration;
             let turning = bend - carried.turning_acceleration_at(&place(time));
-            let swung = MotionPart::Oscillation { direction: Vec3::x(), amplitude: 0.05, frequency: 3.0, phase: 0.4 };
-            let swing = swung.displacement(time) * -(TAU * 3.0).powi(2);
+            let swing = motion.acceleration(time);
             assert!((turning - swing).norm() < 1e-5 && swing.norm() <= shaken, "{turning} {swing}");
             assert!((carried.start_of(&place(time)) - start).norm() < 1e-14);
+            let rotation = |time: f64| motion.carriage(time).rotation;
+            let [rate, second] = carried.rotation_rates();
+            let differences = (rotation(time + longer) - rotation(time - longer)) / (2.0 * longer);
+            let bends = (rotation(time + longer) - 2.0 * rotation(time) + rotation(time - longer)) / (longer * longer);
+            // Of rates of some 3 rad/s: (1e-4 s)² 3³/6 and 3⁴/12, rounding 4e-8.
+            assert!((rate - differences).norm() < 1e-6 && (second - bends).norm() < 1e-6, "{rate} {second}");
             assert!((carried.rotation.tr_mul(&carried.rotation) - Mat3::identity()).norm() < 1e-15 * 10.0);
             assert!(carried.spin.norm() <= bound.spin);
         }

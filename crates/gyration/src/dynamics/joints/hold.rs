@@ -10,7 +10,7 @@ use super::{JointEquations, Vec12, jets};
 use crate::body::{BodyKind, Slots};
 use crate::extended::{Extended, Numbers};
 use crate::inadmissible::Inadmissible;
-use crate::instant::{Instants, apart};
+use crate::instant::{Instants, second};
 use crate::joint::{Jet, Row};
 use crate::kinematics::Quaternion;
 use crate::model::Model;
@@ -74,8 +74,8 @@ impl Workspace {
         scratch.joints.read(model, |body| motions.at(model, body), false);
         let Some(graph) = model.joint_graph() else { return Ok(Vec::new()) };
         let misfit = |joint: &crate::joint::Joint| {
-            let apart = apart(joint, |body| motions.at(model, body));
-            let jets = jets(joint, &scratch.joints.members, graph, apart);
+            let second = second(joint, |body| motions.at(model, body));
+            let jets = jets(joint, &scratch.joints.members, graph, second);
             joint.rows().iter().fold(JointMisfit::default(), |most, row| JointMisfit {
                 place: most.place.max(row.value(&jets).abs()),
                 velocity: most.velocity.max(row.rate(&jets).abs()),
@@ -100,8 +100,8 @@ impl JointEquations {
         let size = self.side.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let Some(graph) = model.joint_graph() else { return Ok((0.0, false)) };
         let is_off = model.joints().iter().zip(&graph.ranges).any(|(joint, range)| {
-            let apart = apart(joint, |body| motions.at(model, body));
-            let jets = jets(joint, &self.members, graph, apart);
+            let second = second(joint, |body| motions.at(model, body));
+            let jets = jets(joint, &self.members, graph, second);
             let rows = joint.rows().iter().zip(&self.side[range.clone()]);
             rows.into_iter().any(|(row, value)| value.abs() > rounding(row, &jets))
         });

@@ -29,13 +29,13 @@ pub(super) use slopes::add_jacobian;
 use super::Scratch;
 use super::body_rates::body_rates;
 use crate::inadmissible::{Inadmissible, Quantity};
-use crate::instant::{Instant, MotionAt, apart};
+use crate::instant::{Instant, MotionAt, second};
 use crate::joint::{Jet, Joint, JointGraph};
 use crate::load::Interaction;
 use crate::model::Model;
 use gyration_blocks::{BlockLu, BlockMatrix, Real};
 use member::Member;
-use nalgebra::{Matrix3x4, SVector};
+use nalgebra::SVector;
 use std::sync::Arc;
 
 type Vec12 = SVector<f64, 12>;
@@ -82,11 +82,11 @@ pub(super) fn solve(instant: &mut Instant, scratch: &mut Scratch) -> Result<(), 
     solved
 }
 
-/// q, q̇, q̈ of both parties of a joint, from the centre of the first.
-fn jets(joint: &Joint, members: &[Member], graph: &JointGraph, apart: Matrix3x4<f64>) -> [Jet; 2] {
+/// q, q̇, q̈ of both parties of a joint, from the centre of the first, given what the second adds to that of its body.
+fn jets(joint: &Joint, members: &[Member], graph: &JointGraph, second: Jet) -> [Jet; 2] {
     let of = |end: usize| joint.parties()[end].body().and_then(|body| graph.place(body));
-    let mut jets = [0, 1].map(|end| of(end).map_or_else(Jet::space, |place| members[place].jet));
-    jets[1].place += apart;
+    let mut jets = [0, 1].map(|end| of(end).map_or_else(Jet::zeros, |place| members[place].jet));
+    jets[1] += second;
     jets
 }
 
@@ -108,9 +108,9 @@ impl JointEquations {
         for number in 0..instant.model().joints().len() {
             let model = instant.model();
             let joint = &model.joints()[number];
-            let apart = apart(joint, |body| instant.motions().at(model, body));
+            let second = second(joint, |body| instant.motions().at(model, body));
             let mut loads = *instant.joint(number);
-            joint.keep(&jets(joint, members, graph, apart), &side[graph.ranges[number].clone()], &mut loads);
+            joint.keep(&jets(joint, members, graph, second), &side[graph.ranges[number].clone()], &mut loads);
             instant.set_joint(number, loads);
         }
         self.accelerate_members();
@@ -125,7 +125,7 @@ impl JointEquations {
         members.extend(graph.bodies.iter().map(|body| Member::of(&at(*body), wants_slopes)));
         rows.clear();
         for joint in model.joints() {
-            let jets = jets(joint, members, graph, apart(joint, &at));
+            let jets = jets(joint, members, graph, second(joint, &at));
             let of = |end: usize| joint.parties()[end].body().and_then(|body| graph.place(body));
             rows.extend(joint.rows().iter().map(|row| {
                 let mut own = RowAt { pull: [Vec12::zeros(); 2], response: [Vec12::zeros(); 2] };
@@ -181,7 +181,7 @@ impl JointEquations {
     ) {
         let Self { room: Some(Room { graph, .. }), members, side, .. } = self else { return };
         for (joint, range) in model.joints().iter().zip(&graph.ranges) {
-            let jets = jets(joint, members, graph, apart(joint, &at));
+            let jets = jets(joint, members, graph, second(joint, &at));
             for (row, out) in joint.rows().iter().zip(&mut side[range.clone()]) {
                 *out = value(row, &jets);
             }

@@ -2,7 +2,7 @@
 
 use super::super::Scratch;
 use super::{Room, jets};
-use crate::instant::{Instant, apart};
+use crate::instant::{Instant, second};
 use crate::load::Interaction;
 use crate::tensor::Vec3;
 
@@ -29,14 +29,14 @@ pub fn observe_joint(instant: &Instant, scratch: &Scratch, number: usize) -> Joi
     let joint = &model.joints()[number];
     let at = |body: usize| instant.motions().at(model, body);
     let jets = match &scratch.joints.room {
-        Some(Room { graph, .. }) => jets(joint, &scratch.joints.members, graph, apart(joint, at)),
+        Some(Room { graph, .. }) => jets(joint, &scratch.joints.members, graph, second(joint, at)),
         None => unreachable!("an instant of a model with joints has solved for them"),
     };
     let end = usize::from(joint.is_reversed);
     let [force, torque] = joint.wrench(&jets, instant.joint(number), end);
     let place = match joint.parties()[end].body() {
         Some(body) => at(body).motion.placement.place(joint.point(end)),
-        None => joint.anchor,
+        None => joint.anchor.at(instant.motions().time()).0,
     };
     JointObservation {
         place,

@@ -10,7 +10,7 @@ use super::super::Scratch;
 use super::super::jacobian::Blocks;
 use super::{JointEquations, Room, Vec12};
 use crate::body::Slots;
-use crate::instant::{Instant, apart};
+use crate::instant::{Instant, second};
 use crate::load::Interaction;
 
 /// Who acts on linkages.
@@ -128,8 +128,8 @@ impl JointEquations {
         for (number, end) in &graph.joints_of[place] {
             let joint = &model.joints()[*number];
             debug_assert!(joint.parties()[*end].body().is_some());
-            let apart = apart(joint, |body| instant.motions().at(model, body));
-            let jets = super::jets(joint, members, graph, apart);
+            let second = second(joint, |body| instant.motions().at(model, body));
+            let jets = super::jets(joint, members, graph, second);
             for (row, out) in joint.rows().iter().zip(&mut side[graph.ranges[*number].clone()]) {
                 *out -= row.change(&jets, *end, &change);
             }
