@@ -68,11 +68,20 @@ impl<'a> Encounter<'a> {
     /// The slab \[m\] and the force \[N\] where the slab is as wide as this if the plane keeps its normal; none where
     /// they are not known.
     pub fn at(&self, slab: f64) -> Option<[f64; 2]> {
-        let mut ends = self.ends.clone();
-        ends[0].placement.position += (slab - self.initial_gap) * self.normal;
-        let loads = loads(&self.form, &ends, self.size)?;
+        let loads = self.loads_at(slab)?;
         let force = loads.on[0].force.dot(&loads.normal);
         Some([loads.gap, force]).filter(|point| point.iter().all(|number| number.is_finite()))
+    }
+
+    /// The normal of the plane from the second to the first at the same place.
+    pub fn normal_at(&self, slab: f64) -> Option<Vec3> {
+        self.loads_at(slab).map(|loads| loads.normal)
+    }
+
+    fn loads_at(&self, slab: f64) -> Option<PairLoads> {
+        let mut ends = self.ends.clone();
+        ends[0].placement.position += (slab - self.initial_gap) * self.normal;
+        loads(&self.form, &ends, self.size)
     }
 }
 

@@ -9,6 +9,7 @@ mod fluid;
 mod joined;
 mod meshes;
 mod neighbor;
+mod plates;
 mod reaches;
 mod stored;
 mod strangers;
@@ -43,6 +44,7 @@ impl Remarks {
     pub(crate) fn without_fluid(model: &Model, start: &State, rtol: f64) -> Self {
         let mut remarks = Self::default();
         strangers::remark(model, start, &mut remarks);
+        remarks.notes.extend(plates::notes(model, start));
         remarks.warnings.extend(meshes::warnings(model));
         remarks.warnings.extend(stored::warning(model, start));
         remarks.warnings.extend(reaches::warnings(model, start));
