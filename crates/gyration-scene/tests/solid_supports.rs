@@ -81,7 +81,7 @@ fn what_is_wrong_with_a_support_is_told_at_its_key() {
             support("shape = §{ torus = { major_radius = 0.3, minor_radius = 0.1 } }"),
             "support.peg.shape",
             "a torus is not convex",
-            "union of convex",
+            "union of capsules",
         ),
         (
             support("shape = §{ points = [{ mass = 1, at = [0, 0, 0] }] }"),

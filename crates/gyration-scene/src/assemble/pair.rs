@@ -13,6 +13,7 @@ use gyration::contact::{AreaMeasure, ContactLaw, LawKind};
 use gyration::kinematics::Placement;
 use gyration::neighbours::{BodyPair, PairRule, PairRules, Sphere, each_near};
 use gyration::pair::{Mass, Overlap, PairLaws, PairLawsError, Reach};
+use gyration::shape::NotConvex;
 use gyration::tensor::Vec3;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -211,10 +212,21 @@ pub(super) fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Repo
     }
     if let Err(why) = assembled.body.solid.shape.check_convex() {
         let message = format!("\"{name}\" cannot meet other bodies: {why}");
-        reporter.note(key, message, "make its shape a union of convex ones: a plane stands between convex bodies");
+        reporter.note(key, message, convex_help(why));
         return false;
     }
     true
+}
+
+/// How to make convex parts of what has none.
+pub(super) fn convex_help(why: NotConvex) -> &'static str {
+    match why {
+        NotConvex::Ring => "make it a union of capsules around the ring: a plane stands between convex bodies",
+        NotConvex::Dent { .. } | NotConvex::Pieces => {
+            "make it a union of convex meshes, each in a file of its own, as CoACD or V-HACD cut it: a plane stands \
+             between convex bodies"
+        }
+    }
 }
 
 /// Notes two bodies that overlap.

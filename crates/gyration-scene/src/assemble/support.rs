@@ -1,6 +1,7 @@
 //! Supports: planes with unit normals, solids, and their motions.
 
 use super::orientation::orientation;
+use super::pair::convex_help;
 use super::shape::ShapeBuilder;
 use crate::check::{PartialScene, Placed, Reporter, direction};
 use crate::file::{Motion, OneOrMany, Support};
@@ -122,7 +123,7 @@ fn is_solid(shape: &Shape, key: &Key, reporter: &mut Reporter<'_>) -> bool {
     }
     if let Err(why) = shape.check_convex() {
         let message = format!("bodies cannot meet this shape: {why}");
-        reporter.note(key, message, "make it a union of convex ones: a plane stands between convex bodies");
+        reporter.note(key, message, convex_help(why));
         return false;
     }
     true

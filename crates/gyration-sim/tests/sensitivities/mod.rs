@@ -4,6 +4,7 @@ mod bodies;
 mod closed_forms;
 mod drives;
 mod fluid;
+mod held;
 mod impacts;
 mod meaningless;
 mod samples;
