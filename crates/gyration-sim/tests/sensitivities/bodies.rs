@@ -115,7 +115,6 @@ const MEETING: &str = r#"
     world = { gravity = [0, 0, 0] }
     [[contact]]
     between = ["a", "b"]
-    measure = "reference_area"
     repulsion = { alpha = 2e3, nu = 6, d0 = 0.01 }
     damping = { beta = 50, nu = 4, d0 = 0.01 }
     friction = { beta = 80, nu = 5, d0 = 0.01 }

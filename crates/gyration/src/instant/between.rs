@@ -196,17 +196,18 @@ impl Between {
         })
     }
 
-    /// Finds again what pairs do of which a body has no inertia, as far as they feel its velocity, or that with its
-    /// derivatives: their planes stay.
+    /// Finds again what pairs do of which a body has no inertia, as far as they feel its velocity or their power is a
+    /// work, or that with its derivatives: their planes stay.
     pub fn find_felt(&mut self, looking: &mut Looking, wanted: Wanted) -> Result<(), Inadmissible> {
-        if !looking.model.rules().all().iter().any(|rule| rule.laws.feel_velocities()) {
+        let books = !looking.model.has_potential();
+        if !looking.model.rules().all().iter().any(|rule| books || rule.laws.feel_velocities()) {
             return Ok(());
         }
         let Self { loads, slopes, sloped, .. } = self;
         let mut place = 0;
         looking.for_each(|looked, room| {
             let Some(looked) = looked else { return Ok(()) };
-            if let Some(sloped) = sloped[place].filter(|_| looked.feels_balance()) {
+            if let Some(sloped) = sloped[place].filter(|_| looked.feels_balance(books)) {
                 match wanted {
                     Wanted::Loads => loads[place] = Some(looked.loads(room)?),
                     Wanted::Slopes => {
@@ -238,9 +239,9 @@ impl Looked<'_> {
         self.parties.iter().any(|party| !party.has_inertia())
     }
 
-    /// Whether it feels the velocity of a body without inertia.
-    fn feels_balance(&self) -> bool {
-        self.is_balanced() && self.pair.form.laws.feel_velocities()
+    /// Whether it feels the velocity of a body without inertia, or `books` the power that this gives.
+    fn feels_balance(&self, books: bool) -> bool {
+        self.is_balanced() && (books || self.pair.form.laws.feel_velocities())
     }
 
     fn loads(&self, room: &mut PairScratch) -> Result<PairLoads, PairFault> {

@@ -30,6 +30,11 @@ impl Model {
         self
     }
 
+    /// Whether what acts along normals has a potential, and no work.
+    pub(crate) fn has_potential(&self) -> bool {
+        self.has_potential
+    }
+
     /// Whether all repulsion and adhesion that act have a potential: on rigid bodies, and in two of the three measures.
     pub(super) fn find_potential(&self) -> bool {
         let deforms = |body: usize| self.bodies[body].affine().is_some();

@@ -9,6 +9,7 @@
 //!
 //! the last of which is what |n| = 1 brings, since L + (ν−1) log|y| does not change along y. K is positive.
 
+use super::areas::{AreaPotentials, Stretch, potentials_along, stretch};
 use super::fault::PairFault;
 use super::laws::PairLaws;
 use super::mean::Mean;
@@ -59,6 +60,12 @@ pub(super) struct Change {
     pub weights: [f64; 2],
     /// δ log U.
     pub growth: f64,
+    /// δ log U_i.
+    pub by_side: [f64; 2],
+    /// What the area factors change of U_i, and of its derivatives by z.
+    pub areas: Option<[Potential; 2]>,
+    /// How the moments of each side change with its area factor.
+    pub stretch: [Option<Stretch>; 2],
     /// What the plane moves by.
     pub plane: Vec3,
 }
@@ -167,28 +174,41 @@ impl Expansion {
 
     /// A change of the coordinates of both, (δq_A, δq_B), with that of the plane in balance, which this one is; δ log
     /// χ′ by δ log U is `switching`.
-    pub fn along(&self, halves: [&Half; 2], change: [&Mat34; 2], switching: f64) -> Change {
+    pub fn along(&self, halves: [&Half; 2], change: [&Mat34; 2], switching: f64, areas: &AreaPotentials) -> Change {
         let own = [0, 1].map(|i| halves[i].sign * change[i].tr_mul(&self.plane.normal));
-        let at_rest = self.growth(&own);
+        let stretch = [0, 1].map(|i| stretch(halves[i], change[i]));
+        let areas = potentials_along(areas, &stretch);
+        let swollen = |growth: [f64; 2]| match &areas {
+            Some(areas) => [0, 1].map(|i| growth[i] + areas[i].value / self.potentials[i].value),
+            None => growth,
+        };
+        let at_rest = swollen(self.growth(&own));
         let mean_at_rest = self.mean.along(at_rest);
         let mut right = Vec3::zeros();
         for i in 0..2 {
             let Potential { value, first, second } = &self.potentials[i];
             let turned = halves[i].sign * change[i] * first;
             let tilted = Vec3::new(self.tangents[0].dot(&turned), self.tangents[1].dot(&turned), 0.0);
-            let slope = (halves[i].by_plane(&self.tangents, &(second * own[i])) - tilted) / *value
-                - self.slopes[i] * at_rest[i];
+            let lost = areas.as_ref().map_or_else(|| second * own[i], |areas| second * own[i] - areas[i].first);
+            let slope = (halves[i].by_plane(&self.tangents, &lost) - tilted) / *value - self.slopes[i] * at_rest[i];
             right += self.mean.parts[i] * (slope - self.mean.power * (at_rest[i] - mean_at_rest) * self.slopes[i]);
         }
         let moved = -self.curvature.solve(&right);
         let heights = [0, 1].map(|i| own[i] + self.heights_after(halves[i], &moved));
-        let by_side = self.growth(&heights);
+        let by_side = swollen(self.growth(&heights));
         let growth = self.mean.along(by_side);
+        let mut first = [0, 1].map(|i| -(self.potentials[i].second * heights[i]));
+        if let Some(areas) = &areas {
+            first.iter_mut().zip(areas).for_each(|(first, own)| *first += own.first);
+        }
         Change {
             normal: self.turned(&moved),
-            first: [0, 1].map(|i| -(self.potentials[i].second * heights[i])),
+            first,
             weights: by_side.map(|side| (1.0 + self.mean.power) * (growth - side) + switching * growth),
             growth,
+            by_side,
+            areas,
+            stretch,
             plane: moved,
             heights,
         }

@@ -11,6 +11,7 @@
 //!
 //!   δ⟨W, W⟩ = Σ W·(2 (δΠ V − Σ η_k δB_k) M + W δM),   δB = Σ δB_i (B/B_i)²,   δ log N = δ log λ_A + δ log a_A⁰
 
+use super::areas::AreaMoments;
 use super::expansion::Change;
 use super::laws::ViscousLaw;
 use super::mediator::{Mediator, Shares, along, combined, from_foot, uniform, upright};
@@ -34,6 +35,8 @@ pub(super) struct Slope {
     from_foot: Mat34,
     /// What that is along the two tangents and along n.
     arms: [Vec4; 3],
+    /// Those of d^−ν′ with the products of the components of the current normal, where areas change.
+    areas: Option<[Mat4; 6]>,
     /// V.
     rates: Mat34,
     /// Vᵀn.
@@ -42,7 +45,13 @@ pub(super) struct Slope {
 
 impl Slope {
     /// From the moments of ν′ and of ν′ + 1 of a side.
-    pub fn new(law: &ViscousLaw, shares: &Shares, state: &PairState, side: usize, moments: &[Moments]) -> Self {
+    pub fn new(
+        law: &ViscousLaw,
+        shares: &Shares,
+        (state, areas): (&PairState, &AreaMoments),
+        side: usize,
+        moments: &[Moments],
+    ) -> Self {
         let coefficient = shares.coefficient(law, side);
         let [value, mut raised] = law.slopes.map(|place| moments[place]);
         raised.scale(-law.exponent * coefficient);
@@ -55,6 +64,7 @@ impl Slope {
             growth: shares.growth(law, side),
             from_foot,
             arms: [one, other, normal].map(|direction| from_foot.tr_mul(&direction)),
+            areas: areas.joined(side, law.value, coefficient),
             rates,
             rising: rates.tr_mul(&normal),
         }
@@ -135,7 +145,10 @@ impl Mediator {
     fn moments_along(&self, state: &PairState, side: usize, slope: &Slope, place: &Mat34, change: &Change) -> Mat4 {
         let heights = &change.heights[side];
         let growth = slope.growth[0] * change.weights[0] + slope.growth[1] * change.weights[1];
-        let changed = growth * slope.value + slope.along(heights);
+        let mut changed = growth * slope.value + slope.along(heights);
+        if let (Some(areas), Some(stretch)) = (&slope.areas, &change.stretch[side]) {
+            areas.iter().zip(stretch).for_each(|(own, weight)| changed += *weight * own);
+        }
         let Some(feet) = &self.feet else { return changed };
         let (foot, half) = (&feet[side], &state.halves[side]);
         let across = foot.across.fixed_rows::<3>(1);

@@ -36,10 +36,12 @@
 //! | `pulled_slopes` | how this changes with the places of both                      |
 //! | `mediator`    | damping and friction against the velocities of the plane        |
 //! | `mediator_slopes` | how these change with the places of both                    |
+//! | `areas`       | how moments change with the area factors of bodies that deform  |
 //! | `opening`     | damping that hardly pulls on what recedes                       |
 //! | `loads`       | forces, moments, energy and powers                               |
 //! | `slopes`      | their derivatives by the coordinates and velocities of both      |
 
+mod areas;
 mod balls;
 mod deepest;
 mod equilibrium;

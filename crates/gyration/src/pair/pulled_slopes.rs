@@ -7,6 +7,7 @@
 //! δ_p is at a fixed p. Planes are counted in the chart in which y = (n, c) is affine in their three numbers; what |y|
 //! brings to K there is stationary.
 
+use super::areas::{AreaMoments, AreaPotentials, potentials_along};
 use super::expansion::{Change, Expansion};
 use super::fault::PairFault;
 use super::laws::PairLaws;
@@ -24,6 +25,8 @@ pub(super) struct PulledSlopes<'a> {
     expansion: &'a Expansion,
     /// −∂h_i by z along ζ_i: ν(ν+1) ∫(α/d₀²)(d/d₀)^−(ν+2) (X̃·ζ) X̃⊗X̃ dA.
     bent: [Mat4; 2],
+    /// The potentials of its powers as areas change.
+    areas: [AreaPotentials; 2],
 }
 
 /// What changes of adhesion along a direction.
@@ -44,7 +47,7 @@ impl<'a> PulledSlopes<'a> {
         pulled: &'a Pulled,
         halves: [&'a Half<'a>; 2],
         expansion: &'a Expansion,
-        room: [&mut [Moments]; 2],
+        (room, areas): ([&mut [Moments]; 2], &mut AreaMoments),
     ) -> Result<Self, PairFault> {
         let (coefficient, exponent) = (laws.coefficient, laws.repulsion.exponent);
         let mut bent = [Mat4::zeros(); 2];
@@ -53,7 +56,11 @@ impl<'a> PulledSlopes<'a> {
             let weighed = contracted(&room[0], &pulled.carried[side].heights);
             bent[side] = exponent * (exponent + 1.0) * coefficient * weighed;
         }
-        Ok(Self { pulled, halves, expansion, bent })
+        let areas = match &laws.pull {
+            Some(pull) => areas.pulling(pull, halves, &expansion.plane)?,
+            None => Default::default(),
+        };
+        Ok(Self { pulled, halves, expansion, bent, areas })
     }
 
     /// Along a direction (δq_A, δq_B), with the change of the plane.
@@ -61,8 +68,7 @@ impl<'a> PulledSlopes<'a> {
         let Self { pulled, halves, expansion, .. } = self;
         let Pulled { pulls, turn, carried: own, .. } = pulled;
         let (normal, tangents) = (&expansion.plane.normal, &expansion.tangents);
-        let growth = expansion.growth(&change.heights);
-        let scales = expansion.mean.weights_along(growth).map(|weight| weight - change.growth);
+        let scales = expansion.mean.weights_along(change.by_side).map(|weight| weight - change.growth);
         let held = self.carried_along(places, change, &scales);
         let bent = self.pulls_along(change);
         let sums = [0, 1].map(|i| bent[i] + held[i]);
@@ -95,15 +101,17 @@ impl<'a> PulledSlopes<'a> {
     /// δA of both.
     fn pulls_along(&self, change: &Change) -> [Vec4; 2] {
         let mut sums = [Vec4::zeros(); 2];
-        for term in self.pulled.terms.iter().flatten() {
+        for (term, areas) in self.pulled.terms.iter().zip(&self.areas) {
+            let Some(term) = term else { continue };
+            let areas = potentials_along(areas, &change.stretch).unwrap_or([Potential::ZERO; 2]);
             let growth = [0, 1].map(|i| {
                 let Potential { value, first, .. } = &term.potentials[i];
-                -first.dot(&change.heights[i]) / value
+                (areas[i].value - first.dot(&change.heights[i])) / value
             });
             let weights = term.mean.weights_along(growth);
             for i in 0..2 {
                 let Potential { first, second, .. } = &term.potentials[i];
-                sums[i] += term.weight(i) * (weights[i] * first - second * change.heights[i]);
+                sums[i] += term.weight(i) * (weights[i] * first - second * change.heights[i] + areas[i].first);
             }
         }
         sums
@@ -111,14 +119,17 @@ impl<'a> PulledSlopes<'a> {
 
     /// δ_p e of both, given δ log b.
     fn carried_along(&self, places: [&Mat34; 2], change: &Change, scales: &[f64; 2]) -> [Vec4; 2] {
-        let Self { pulled, halves, expansion, bent } = self;
+        let Self { pulled, halves, expansion, bent, .. } = self;
         let (parts, power) = (expansion.mean.parts, expansion.mean.power);
         let own = &pulled.carried;
-        let growth = expansion.growth(&change.heights);
+        let growth = &change.by_side;
+        let areas = change.areas.unwrap_or([Potential::ZERO; 2]);
         let tilted = [0, 1].map(|i| halves[i].sign * places[i].tr_mul(&pulled.turn));
         let steeper = [0, 1].map(|i| {
             let Potential { value, first, .. } = &expansion.potentials[i];
-            (change.heights[i].dot(&own[i].stiff) - first.dot(&tilted[i])) / value - own[i].growth * growth[i]
+            let bent =
+                change.heights[i].dot(&own[i].stiff) - first.dot(&tilted[i]) - areas[i].first.dot(&own[i].heights);
+            bent / value - own[i].growth * growth[i]
         });
         let of_mean = |i: usize| parts[i] * (steeper[i] - power * (growth[i] - change.growth) * own[i].growth);
         let mean = of_mean(0) + of_mean(1);
@@ -126,7 +137,7 @@ impl<'a> PulledSlopes<'a> {
             let Potential { first, second, .. } = &expansion.potentials[i];
             let Carried { scale, weight, pull, .. } = &own[i];
             let heavier = power * mean - (1.0 + power) * steeper[i];
-            let stiff = second * tilted[i] - bent[i] * change.heights[i];
+            let stiff = second * tilted[i] - bent[i] * change.heights[i] + areas[i].second * own[i].heights;
             scales[i] * pull + *scale * (stiff - heavier * first - *weight * change.first[i])
         })
     }

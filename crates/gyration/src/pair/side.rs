@@ -5,7 +5,7 @@ use super::plane::Plane;
 use super::{Mat4, Mat34, Vec4};
 use crate::contact::Deformation;
 use crate::kinematics::{Placement, Velocity};
-use crate::surface::{GapClosed, GapField, MomentPlan, Moments, Surface};
+use crate::surface::{GapClosed, GapField, MomentPlan, Moments, OrientedMoments, Surface};
 use crate::tensor::{Mat3, Vec3};
 
 /// σ: A is above the plane, B below.
@@ -56,6 +56,16 @@ pub(super) struct Potential {
 }
 
 impl Potential {
+    /// Of nothing.
+    pub const ZERO: Self = Self { value: 0.0, first: Vec4::new(0.0, 0.0, 0.0, 0.0), second: NOTHING };
+
+    /// Adds a multiple of another.
+    pub fn add_scaled(&mut self, factor: f64, other: &Self) {
+        self.value += factor * other.value;
+        self.first += factor * other.first;
+        self.second += factor * other.second;
+    }
+
     /// Of c d^−ν, from the moments of d^(1−ν), d^−ν and d^−(ν+1).
     pub fn new(coefficient: f64, exponent: f64, [energy, force, stiffness]: [&Moments; 3]) -> Self {
         Self {
@@ -65,6 +75,14 @@ impl Potential {
         }
     }
 }
+
+#[rustfmt::skip]
+const NOTHING: Mat4 = Mat4::new(
+    0.0, 0.0, 0.0, 0.0,
+    0.0, 0.0, 0.0, 0.0,
+    0.0, 0.0, 0.0, 0.0,
+    0.0, 0.0, 0.0, 0.0,
+);
 
 /// ∫κ X̃⊗X̃ dA from its parts.
 pub(super) fn joined(zeroth: f64, first: &Vec3, second: &Mat3) -> Mat4 {
@@ -139,6 +157,17 @@ impl Half<'_> {
             Some(cofactor) => self.side.surface.deformed_moments(&field, cofactor, plan, out),
             None => self.side.surface.planned_moments(&field, plan, out),
         }
+    }
+
+    /// The moments of a plan with the products of the components of the current normal, where areas change.
+    pub fn oriented_moments(
+        &self,
+        plane: &Plane,
+        plan: &MomentPlan,
+        out: &mut [OrientedMoments],
+    ) -> Result<(), GapClosed> {
+        let Some(cofactor) = self.cofactor else { return Ok(()) };
+        self.side.surface.oriented_moments(&Self::field(&self.heights(plane)), cofactor, plan, out)
     }
 
     /// The potential of a plane.

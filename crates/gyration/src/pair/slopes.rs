@@ -19,8 +19,7 @@ use crate::tensor::{Mat3, Vec3, cross_matrix};
 impl PairSlopes {
     /// Places the plane between two bodies, integrates the laws over both, and differentiates them.
     ///
-    /// The area factor of a body that deforms is held. Those by the place of a rigid body are by what it can do, turn
-    /// and not deform.
+    /// Those by the place of a rigid body are by what it can do, turn and not deform.
     ///
     /// # Errors
     /// [`PairFault`] if no plane separates them.
@@ -56,15 +55,19 @@ impl PairSlopes {
         let mut on = [state.repulsion(0), state.repulsion(1)];
         let mut powers = state.powers(&on);
         state.add_adhesion(&mut on, &mut powers);
+        let mut areas = std::mem::take(&mut scratch.areas);
+        let placing = areas.placing(&pair.laws, halves, &state.placed.plane)?;
         let adhesion = match &state.pulled {
-            Some(pulled) => Some(PulledSlopes::new(&pair.laws, pulled, halves, &expansion, scratch.take(1))?),
+            Some(pulled) => {
+                Some(PulledSlopes::new(&pair.laws, pulled, halves, &expansion, (scratch.take(1), &mut areas))?)
+            }
             None => None,
         };
         let mut directions = Direction::all(sides);
         let mut columns: [Option<Column>; BOTH] = std::array::from_fn(|_| {
             let direction = directions.next()?;
             let places = direction.places();
-            let change = expansion.along(halves, places.each_ref(), state.placed.switch.bend);
+            let change = expansion.along(halves, places.each_ref(), state.placed.switch.bend, &placing);
             let mut sum = [0, 1].map(|side| state.repulsion_along(side, &change));
             if let Some(adhesion) = &adhesion {
                 let change = state.adhesion_along(adhesion, places.each_ref(), &change, &sum);
@@ -73,18 +76,20 @@ impl PairSlopes {
             Some(Column { direction, change, sum })
         });
         let normal = &state.placed.plane.normal;
+        areas.find(halves, &state.placed.plane, &pair.laws.resisting)?;
         let by_rate = &mut self.by_rate;
         state.each_mediator(ViscousMoments::Slopes, scratch, |law, shares, mediator, moments| {
             powers[mediator.kind as usize] += mediator.power();
             on[0] += mediator.loads(0);
             on[1] += mediator.loads(1);
-            let bent = [0, 1].map(|side| Slope::new(law, shares, &state, side, moments[side]));
+            let bent = [0, 1].map(|side| Slope::new(law, shares, (&state, &areas), side, moments[side]));
             for Column { direction, change, sum } in columns.iter_mut().flatten() {
                 let change = mediator.along_places(&state, &bent, direction.places().each_ref(), change);
                 sum.iter_mut().zip(&change).for_each(|(sum, change)| *sum += change);
             }
             mediator.add_by_rates(normal, by_rate.get_or_insert(Self::ZEROS));
         })?;
+        scratch.areas = areas;
         let by_place = &mut self.by_place;
         columns.iter().flatten().for_each(|Column { direction, sum, .. }| direction.add_to(by_place, sum));
         self.loads = state.exchange(on, powers);

@@ -1,5 +1,6 @@
 //! A pair whose plane is found.
 
+use super::areas::AreaMoments;
 use super::equilibrium::search;
 use super::exchange::PairGap;
 use super::expansion::Expansion;
@@ -21,6 +22,7 @@ use crate::tensor::Vec3;
 pub struct PairScratch {
     pub(super) moments: [Vec<Moments>; 2],
     pub(super) axial: [Vec<AxialMoments>; 2],
+    pub(super) areas: AreaMoments,
 }
 
 /// Which moments of viscous laws are wanted.
@@ -211,7 +213,8 @@ impl PairForm {
         let (state, expansion) = PairState::expanded(self, sides, guess, scratch)?;
         let halves = state.halves.each_ref();
         let rates = halves.map(Half::rates);
-        let change = expansion.along(halves, rates.each_ref(), state.placed.switch.bend);
+        let areas = scratch.areas.placing(&self.laws, halves, &state.placed.plane)?;
+        let change = expansion.along(halves, rates.each_ref(), state.placed.switch.bend, &areas);
         let (mut gaps, mut rates) = ([0.0; 2], [0.0; 2]);
         for (i, half) in halves.into_iter().enumerate() {
             let (gap, point) = half.smallest_gap(&state.placed.plane);

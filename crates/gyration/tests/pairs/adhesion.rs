@@ -1,6 +1,6 @@
 //! Adhesion between bodies: its forces are the derivative of its energy though something else places the plane.
 
-use super::{Half, noise, numbers, off, pairs, rotation, vector, within};
+use super::{Half, measured, noise, numbers, off, pairs, rotation, vector, within};
 use gyration::contact::{Adhesion, AreaMeasure, ContactLaw, Damping, Friction, LawKind, Repulsion};
 use gyration::load::Loads;
 use gyration::pair::{PairForm, PairLaws, PairLawsError, PairScratch, PairSlopes};
@@ -75,7 +75,8 @@ fn slopes_agree_with_differences() {
     let mut worst: f64 = 0.0;
     for (k, (name, one, other)) in pairs().enumerate() {
         let kinds = kinds();
-        let laws = &kinds[k % kinds.len()];
+        let (laws, one, other) = measured(k / 2, &kinds[k % kinds.len()], [one, other]);
+        let laws = &laws;
         let gap = within(laws, None, [&one, &other]).gap;
         let reach = [None, Some(20.0 * gap)][(k / 2) % 2];
         let form = PairForm::new(Arc::new(laws.clone()), reach, [&one.surface, &other.surface]);

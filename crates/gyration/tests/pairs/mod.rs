@@ -6,7 +6,7 @@ mod overlaps;
 mod relations;
 mod values;
 
-use gyration::contact::{AreaMeasure, ContactLaw, Damping, Friction, Repulsion};
+use gyration::contact::{AreaMeasure, ContactLaw, Damping, Deformation, Friction, Repulsion};
 use gyration::kinematics::{Placement, Velocity};
 use gyration::load::Loads;
 use gyration::pair::{PairForm, PairLaws, PairLoads, PairScratch, Side};
@@ -20,6 +20,8 @@ struct Half {
     surface: Surface,
     placement: Placement,
     velocity: Velocity,
+    /// Whether its areas change where laws are per deformed area.
+    swells: bool,
 }
 
 /// Numbers in [−1, 1] that no symmetry makes simple.
@@ -41,7 +43,7 @@ impl Half {
         let strain = 0.1 * Mat3::from_fn(|_, _| next());
         let velocity = Velocity { velocity: vector(&mut next), gradient_rate: Mat3::from_fn(|_, _| next()) };
         let gradient = rotation * (Mat3::identity() + strain);
-        Self { surface: surface.clone(), placement: Placement { position, gradient }, velocity }
+        Self { surface: surface.clone(), placement: Placement { position, gradient }, velocity, swells: false }
     }
 
     /// As one of two, of which `first` is A.
@@ -52,7 +54,7 @@ impl Half {
             from_first: self.placement.position - first.placement.position,
             velocity: &self.velocity,
             inverse: self.placement.gradient.try_inverse().unwrap(),
-            deformation: None,
+            deformation: Deformation::of(&self.placement.gradient).filter(|_| self.swells),
             least_gap: 0.0,
         }
     }
@@ -79,6 +81,7 @@ impl Half {
             surface: self.surface.clone(),
             placement: Placement { position: rotation * position + shift, gradient: rotation * gradient },
             velocity: Velocity { velocity: rotation * velocity, gradient_rate: rotation * gradient_rate },
+            swells: self.swells,
         }
     }
 
@@ -129,6 +132,14 @@ fn bounded_too(laws: &PairLaws) -> Vec<PairLaws> {
         PairLaws::new(laws.measure, laws.laws().iter().map(bind).collect()).unwrap()
     };
     vec![laws.clone(), bounded(10.0), bounded(0.2)]
+}
+
+/// Every other pair per deformed area.
+fn measured(k: usize, laws: &PairLaws, [mut one, mut other]: [Half; 2]) -> (PairLaws, Half, Half) {
+    let deformed = k.is_multiple_of(2);
+    (one.swells, other.swells) = (deformed, deformed);
+    let measure = if deformed { AreaMeasure::DeformedArea } else { AreaMeasure::ReferenceArea };
+    (PairLaws::new(measure, laws.laws().to_vec()).unwrap(), one, other)
 }
 
 fn pair(laws: &PairLaws, reach: Option<f64>, halves: [&Half; 2]) -> PairForm {

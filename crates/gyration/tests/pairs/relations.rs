@@ -1,6 +1,6 @@
 //! Relations that hold for every pair of bodies.
 
-use super::{Half, bounded_too, laws, loads, noise, numbers, off, pair, pairs, rotation, vector, within};
+use super::{Half, bounded_too, laws, loads, measured, noise, numbers, off, pair, pairs, rotation, vector, within};
 use gyration::contact::LawKind;
 use gyration::kinematics::Placement;
 use gyration::load::Loads;
@@ -44,6 +44,7 @@ fn slopes_agree_with_differences() {
         let exponents = [[6.0, 6.0, 6.0], [2.5, 4.0, 3.0], [12.0, 10.0, 6.5]][k % 3];
         // Each with one of them.
         let laws = bounded_too(&laws(exponents, true)).swap_remove((k / 3) % 3);
+        let (laws, one, other) = measured(k, &laws, [one, other]);
         // Far beyond the gaps, a little beyond them, and none.
         let gap = loads(&laws, [&one, &other]).gap;
         let reach = [Some(100.0 * gap), Some(20.0 * gap), None][(k / 2) % 3];

@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 fn still(surface: Surface, height: f64) -> Half {
     let placement = Placement { position: Vec3::z() * height, gradient: Mat3::identity() };
     let velocity = Velocity { velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() };
-    Half { surface, placement, velocity }
+    Half { surface, placement, velocity, swells: false }
 }
 
 #[test]
