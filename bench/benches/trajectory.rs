@@ -57,6 +57,7 @@ fn by_simulation(model: &Model, start: &State, method: Method, rtol: f64) -> Rea
         tolerance: tolerance(rtol),
         options,
         extras: Extras::default(),
+        pairs: false,
         threads: None,
     };
     let mut simulation = Simulation::new(model, start, plan).expect("the start is admissible");

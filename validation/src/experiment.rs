@@ -86,7 +86,16 @@ impl Experiment {
     /// An experiment with a model made by hand, the method chosen by the program.
     pub fn of_model(model: Model, start: State, tolerance: Tolerance) -> Self {
         let (options, extras) = (Options::default(), Extras::default());
-        let plan = RunPlan { end: 1.0, sample: 1.0, stop_at_rest: None, tolerance, options, extras, threads: None };
+        let plan = RunPlan {
+            end: 1.0,
+            sample: 1.0,
+            stop_at_rest: None,
+            tolerance,
+            options,
+            extras,
+            pairs: false,
+            threads: None,
+        };
         Self { model, start, plan }
     }
 

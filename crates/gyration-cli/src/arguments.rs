@@ -233,6 +233,9 @@ pub struct Export {
     /// Take each N-th sample, and the last (vtk)
     #[arg(long, value_name = "N")]
     pub every: Option<NonZeroUsize>,
+    /// Write what acts between two, a row a sample and pair (csv of a scene with record = { pairs = true })
+    #[arg(long)]
+    pub pairs: bool,
 }
 
 /// Formats of an export.

@@ -12,7 +12,7 @@ pub(crate) struct SystemLayout {
     pub dimension: usize,
     /// The number of components of u = (y, w).
     pub width: usize,
-    /// The blocks of y and, if there are quadratures, the range of w within u.
+    /// The blocks of y and, if there are quadratures that have a part in the error of a step, their range within u.
     pub groups: Vec<Range<usize>>,
     /// How many of the groups are blocks of y.
     pub blocks: usize,
@@ -45,7 +45,11 @@ impl SystemLayout {
     /// # Panics
     /// As `new`, and if the blocks do not end where the state does.
     pub fn of<S: System>(system: &S) -> Self {
-        let layout = Self::new(system.blocks(), system.components(), system.quadratures());
+        let mut layout = Self::new(system.blocks(), system.components(), system.quadratures());
+        let free = system.free_quadratures();
+        if let Some(watched) = layout.groups.get_mut(layout.blocks).filter(|_| free > 0) {
+            watched.end -= free;
+        }
         let (dimension, reached) = (system.dimension(), layout.dimension);
         assert!(dimension == reached, "blocks must cover 0..{dimension}, they end at {reached}");
         layout

@@ -26,6 +26,11 @@ pub trait System {
     /// The number of components of w; may be 0.
     fn quadratures(&self) -> usize;
 
+    /// How many of these, the last ones, have no part in the error of a step: it is the same with and without them.
+    fn free_quadratures(&self) -> usize {
+        0
+    }
+
     /// The blocks of y: consecutive ranges, a partition of `0..dimension`. They may change between steps.
     fn blocks(&self) -> &[Range<usize>];
 

@@ -50,7 +50,7 @@ impl DataType {
 pub struct ArrayInfo {
     /// Name.
     pub name: String,
-    /// Names of the dimensions; the first of a growing array is `time` or `event`.
+    /// Names of the dimensions; of a growing array the first is `time`, `event`, `entry` or `boundary`.
     pub dims: Vec<String>,
     /// Sizes of the dimensions.
     pub shape: Vec<usize>,

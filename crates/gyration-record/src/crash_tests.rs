@@ -4,7 +4,9 @@
 //! never interrupted. The fuse counts operations; once blown, nothing reaches the disk any more.
 
 use crate::disk::Disk;
-use crate::{ArraySpec, Attributes, Dimension, Event, FixedArray, Layout, RecordError, Recording, Writer};
+use crate::{
+    ArraySpec, Attributes, Dimension, Event, FixedArray, Layout, Ragged, RaggedArray, RecordError, Recording, Writer,
+};
 use serde_json::json;
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -33,6 +35,24 @@ const ROWS: usize = 23;
 const FLUSH_EVERY: usize = 5;
 const EVENTS_PER_ROW: usize = 13; // 299 events: more than a chunk of them
 
+fn ragged() -> Ragged {
+    let array = |name: &str, dims: Vec<Dimension>, codes: Option<&[&str]>| RaggedArray {
+        spec: ArraySpec { name: name.into(), dims, ..ArraySpec::default() },
+        codes: codes.map(|codes| codes.iter().map(|code| (*code).to_owned()).collect()),
+    };
+    let arrays = vec![
+        array("first", Vec::new(), Some(&[])),
+        array("force", vec![Dimension::new("row", 3)], None),
+        array("kind", Vec::new(), Some(&["contact", "spring"])),
+    ];
+    Ragged { name: "pairs".into(), arrays, chunk_entries: 16 }
+}
+
+/// From none to three entries of a sample.
+fn entries(k: usize) -> Vec<f64> {
+    (0..k % 4).flat_map(|n| [n as f64, 0.1 * k as f64, f64::NAN, n as f64 + 0.5, (n % 2) as f64]).collect()
+}
+
 fn layout() -> Layout {
     let array = |name: &str, dims: &[(&str, usize)]| ArraySpec {
         name: name.into(),
@@ -45,6 +65,7 @@ fn layout() -> Layout {
         fixed: vec![FixedArray { spec: array("mass", &[("body", 2)]), values: vec![1.0, 2.0] }],
         labels: vec![("body".into(), vec!["die".into(), "ball".into()])],
         event_kinds: vec!["touch".into(), "part".into()],
+        ragged: Some(ragged()),
         chunk_rows: 4,
         ..Layout::default()
     }
@@ -72,6 +93,7 @@ fn go_on(mut writer: Writer, flushed: &Cell<usize>) -> Result<(), RecordError> {
         for n in 0..EVENTS_PER_ROW {
             writer.append_event(event(k * EVENTS_PER_ROW + n))?;
         }
+        writer.append_entries(&entries(k))?;
         writer.append(0.1 * k as f64, &row(k))?;
         if k % FLUSH_EVERY == 0 {
             writer.flush(&checkpoint(k + 1))?;
@@ -139,6 +161,17 @@ fn assert_reads_to(path: &Path, flushed: usize, when: &str) {
     let events = recording.events().unwrap();
     assert!(events.len() >= flushed * EVENTS_PER_ROW);
     assert!(events.iter().enumerate().all(|(n, found)| *found == event(n)), "{when}: events");
+    let [first, kind] = ["pairs/first", "pairs/kind"].map(|name| recording.read(name).unwrap().data);
+    let force = recording.read("pairs/force").unwrap().data;
+    for k in 0..rows {
+        let found = recording.entries(k).unwrap().flat_map(|n| {
+            let [x, y, z] = [0, 1, 2].map(|i| force[3 * n + i]);
+            [first[n], x, y, z, kind[n]]
+        });
+        let same = |a: f64, b: f64| a == b || (a.is_nan() && b.is_nan());
+        assert!(found.zip(entries(k)).all(|(a, b)| same(a, b)), "{when}: entries of {k}");
+        assert_eq!(recording.entries(k).unwrap().len(), k % 4, "{when}");
+    }
 }
 
 /// A scratch folder, in memory where there is one: thousands of files are replaced.

@@ -19,6 +19,8 @@ pub(crate) const CHECKPOINT: &str = "state/checkpoint";
 const LOCK: &str = "state/lock";
 /// Ending of a file that is not yet in its place.
 const PART: &str = ".part";
+/// How deep a recording is: groups, their arrays, the chunks of these.
+const DEPTH: usize = 3;
 /// Files on their way to the disk at once: waiting is all they do.
 const SYNC_THREADS: usize = 8;
 
@@ -200,11 +202,15 @@ pub(crate) fn lock(work: &Path, path: &Path) -> Result<File, RecordError> {
 /// # Errors
 /// `NotARecording` with what lies there, `Io`.
 pub(crate) fn refuse_foreign_entries(path: &Path) -> Result<(), RecordError> {
+    refuse_foreign_within(path, DEPTH)
+}
+
+fn refuse_foreign_within(path: &Path, depth: usize) -> Result<(), RecordError> {
     for name in list(path)? {
         let entry = path.join(name);
         refuse_foreign(&entry)?;
-        if entry.is_dir() {
-            list(&entry)?.iter().try_for_each(|name| refuse_foreign(&entry.join(name)))?;
+        if depth > 1 && entry.is_dir() {
+            refuse_foreign_within(&entry, depth - 1)?;
         }
     }
     Ok(())

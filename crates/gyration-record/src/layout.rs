@@ -7,6 +7,16 @@ use crate::error::RecordError;
 use crate::names::{is_column, is_name, is_word};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// The dimensions along which arrays grow: samples, events, entries of a ragged group, and where those of a sample
+/// begin, one more than there are samples.
+pub(crate) const GROWING: [&str; 4] = ["time", "event", ENTRY, BOUNDARY];
+/// The dimension of the entries of a ragged group.
+pub(crate) const ENTRY: &str = "entry";
+/// That of where they begin.
+pub(crate) const BOUNDARY: &str = "boundary";
+/// The array of where they begin.
+pub(crate) const START: &str = "start";
+
 /// A dimension of an array beside time.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Dimension {
@@ -54,6 +64,35 @@ pub struct FixedArray {
     pub values: Vec<f64>,
 }
 
+/// Entries of which each sample has a number of its own, as arrays in a group of their own.
+///
+/// Beside the arrays the group has `start`: the entries of sample k are those from `start[k]` to `start[k + 1]`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ragged {
+    /// Name of the group, `[A-Za-z_][A-Za-z0-9_]*`.
+    pub name: String,
+    /// Its arrays, in the order of an entry.
+    pub arrays: Vec<RaggedArray>,
+    /// Entries in a chunk file, at least 1.
+    pub chunk_entries: usize,
+}
+
+/// An array of a ragged group.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RaggedArray {
+    /// Name, dimensions beside the entry, meaning; no columns.
+    pub spec: ArraySpec,
+    /// Names of the values 0, 1, … of whole numbers, none of which may have a name; none: it has real numbers.
+    pub codes: Option<Vec<String>>,
+}
+
+impl Ragged {
+    /// Numbers in an entry.
+    pub fn entry_len(&self) -> usize {
+        self.arrays.iter().map(|array| array.spec.row_len()).sum()
+    }
+}
+
 /// All that a recording holds.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Layout {
@@ -61,6 +100,8 @@ pub struct Layout {
     pub arrays: Vec<ArraySpec>,
     /// Arrays without time.
     pub fixed: Vec<FixedArray>,
+    /// Entries of which each sample has a number of its own.
+    pub ragged: Option<Ragged>,
     /// Labels of dimensions, such as the names of the bodies: a reader may then select by name.
     pub labels: Vec<(String, Vec<String>)>,
     /// Names of the kinds of events, by code from zero, `[A-Za-z0-9_]+`; none: no events are recorded.
@@ -100,6 +141,9 @@ impl Layout {
         }
         let sizes = self.dimension_sizes()?;
         self.check_names(&sizes)?;
+        if let Some(ragged) = &self.ragged {
+            check_ragged(ragged)?;
+        }
         for fixed in &self.fixed {
             let (name, len) = (&fixed.spec.name, fixed.spec.row_len());
             if fixed.values.len() != len || !fixed.spec.columns.is_empty() {
@@ -152,7 +196,7 @@ impl Layout {
             let mut own = BTreeSet::new();
             for Dimension { name, size } in &spec.dims {
                 let array = &spec.name;
-                if !is_name(name) || ["time", "event"].contains(&name.as_str()) || !own.insert(name) || *size == 0 {
+                if !is_name(name) || GROWING.contains(&name.as_str()) || !own.insert(name) || *size == 0 {
                     return Err(RecordError::layout(format!(
                         "the dimension `{name}` of `{array}` is empty, taken twice, reserved or not a name"
                     )));
@@ -170,7 +214,8 @@ impl Layout {
         let mut taken: BTreeSet<&str> =
             ["time", "state", "event_time", "event_kind", "event_body"].into_iter().collect();
         taken.extend(sizes.keys());
-        for spec in self.specs() {
+        taken.extend(self.ragged.iter().map(|ragged| ragged.name.as_str()));
+        for spec in self.arrays.iter().chain(self.fixed.iter().map(|fixed| &fixed.spec)) {
             if !is_name(&spec.name) || !taken.insert(&spec.name) {
                 let name = &spec.name;
                 return Err(RecordError::layout(format!("the array name `{name}` is taken, reserved or not a name")));
@@ -188,8 +233,27 @@ impl Layout {
 
     /// All described arrays.
     fn specs(&self) -> impl Iterator<Item = &ArraySpec> {
-        self.arrays.iter().chain(self.fixed.iter().map(|fixed| &fixed.spec))
+        let ragged = self.ragged.iter().flat_map(|ragged| &ragged.arrays).map(|array| &array.spec);
+        self.arrays.iter().chain(self.fixed.iter().map(|fixed| &fixed.spec)).chain(ragged)
     }
+}
+
+/// Checks the name of a ragged group and what it holds; the names of its arrays are those of the group alone.
+fn check_ragged(ragged: &Ragged) -> Result<(), RecordError> {
+    let name = &ragged.name;
+    if !is_name(name) || ragged.chunk_entries == 0 || ragged.arrays.is_empty() {
+        return Err(RecordError::layout(format!("the ragged group `{name}` has no name, no arrays or empty chunks")));
+    }
+    let mut taken = BTreeSet::from([START]);
+    for RaggedArray { spec, codes } in &ragged.arrays {
+        let is_free = is_name(&spec.name) && taken.insert(&spec.name);
+        let words = codes.iter().flatten().all(|word| is_word(word));
+        if !is_free || !words || !spec.columns.is_empty() {
+            let array = &spec.name;
+            return Err(RecordError::layout(format!("the array `{array}` of `{name}` is taken or not a name")));
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -245,6 +309,21 @@ mod tests {
         refused(&|l| l.labels.push(l.labels[0].clone()), "body");
         refused(&|l| l.event_kinds.push("lift off".into()), "lift off");
         refused(&|l| l.fixed.push(FixedArray::default()), "``");
+        let ragged = |array: &str| Ragged {
+            name: "pairs".into(),
+            arrays: vec![RaggedArray {
+                spec: ArraySpec { name: array.into(), ..ArraySpec::default() },
+                codes: Some(vec!["one".into()]),
+            }],
+            chunk_entries: 4,
+        };
+        let mut layout = layout();
+        layout.ragged = Some(ragged("position"));
+        layout.check().unwrap();
+        refused(&|l| l.ragged = Some(ragged("start")), "start");
+        refused(&|l| l.ragged = Some(ragged("../x")), "../x");
+        refused(&|l| l.ragged = Some(Ragged { name: "position".into(), ..ragged("first") }), "position");
+        refused(&|l| l.ragged = Some(Ragged { chunk_entries: 0, ..ragged("first") }), "pairs");
     }
 
     #[test]

@@ -6,6 +6,7 @@
 //! ```text
 //! NAME.gyr/zarr.json             attributes and the metadata of every array: the commit point of the data
 //!          ARRAY/zarr.json       the same metadata again, for readers that do not consolidate
+//!          GROUP/ARRAY/…         arrays of which each sample has as many entries as it needs; `start` tells where they begin
 //!          ARRAY/c.K.0…          rows K·C to (K+1)·C − 1, little-endian f64, padded with NaN; C = chunk_rows; CRC-32C
 //!          state/checkpoint      what a resumed run starts from, with the number of rows it belongs to; written last
 //!          state/lock            held by the one process that writes
@@ -39,7 +40,7 @@ pub use array::ArrayInfo;
 pub use disk::remove;
 pub use error::RecordError;
 pub use file::{cannot_write, replace_file, write_file};
-pub use layout::{ArraySpec, Dimension, FixedArray, Layout, chunk_rows_for};
+pub use layout::{ArraySpec, Dimension, FixedArray, Layout, Ragged, RaggedArray, chunk_rows_for};
 pub use recording::{Array, Recording};
 pub use writer::{Event, Resumed, Writer};
 

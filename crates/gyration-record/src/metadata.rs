@@ -9,11 +9,12 @@
 use crate::Attributes;
 use crate::array::{ArrayInfo, DataType};
 use crate::error::RecordError;
-use crate::layout::Layout;
-use crate::names::{METADATA, STATE, is_column, is_name, is_word};
-use crate::zarr::{Marker, ZarrGroup, group_json};
+use crate::layout::{BOUNDARY, ENTRY, Layout, Ragged, RaggedArray, START};
+use crate::names::{METADATA, is_column, is_name, is_path, is_word};
+use crate::zarr::{Marker, ZarrGroup, array_of, group_json};
 use gyration_files::check;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The version of the format that this crate writes and reads.
@@ -56,6 +57,9 @@ impl Group {
             });
             arrays.push(code(event("event_body", "", "index of the body, -1 for none")));
         }
+        if let Some(ragged) = &layout.ragged {
+            arrays.extend(ragged_arrays(ragged, layout.chunk_rows));
+        }
         let order = arrays.iter().map(|array| Value::from(array.name.clone())).collect::<Vec<_>>();
         arrays.extend(layout.fixed.iter().map(|fixed| ArrayInfo::of(&fixed.spec, None)));
         arrays.extend(layout.labels.iter().map(|(dim, labels)| ArrayInfo::labels(dim, labels.len())));
@@ -65,12 +69,17 @@ impl Group {
         Ok(Self { attributes, arrays })
     }
 
-    /// Rows along `time` or `event`; none if nothing grows along it.
+    /// The name of the ragged group; none without one.
+    pub(crate) fn ragged(&self) -> Option<&str> {
+        self.arrays.iter().find(|array| array.grows_with(BOUNDARY))?.name.strip_suffix("/start")
+    }
+
+    /// Rows along a growing dimension; none if nothing grows along it.
     pub(crate) fn rows(&self, dim: &str) -> Option<usize> {
         self.arrays.iter().find(|array| array.grows_with(dim)).map(|array| array.shape[0])
     }
 
-    /// Sets the rows along `time` or `event`.
+    /// Sets the rows along a growing dimension.
     pub(crate) fn set_rows(&mut self, dim: &str, rows: usize) {
         for array in self.arrays.iter_mut().filter(|array| array.grows_with(dim)) {
             array.shape[0] = rows;
@@ -81,7 +90,7 @@ impl Group {
     pub(crate) fn to_json(&self) -> Vec<u8> {
         let place = Value::from(check::UNKNOWN);
         let attributes = self.attributes.iter().map(|(name, value)| (name.as_str(), value));
-        let mut text = group_json(attributes.chain([(CHECKSUM, &place)]), &self.arrays);
+        let mut text = group_json(attributes.chain([(CHECKSUM, &place)]), &self.arrays, self.ragged());
         check::seal(&mut text, CHECKSUM_PLACE);
         text
     }
@@ -97,7 +106,11 @@ impl Group {
             Some(found) => return Err(RecordError::Version { path: path.to_path_buf(), found, supported: FORMAT }),
         }
         let group: ZarrGroup = serde_json::from_slice(bytes).map_err(|e| no(format!("zarr.json: {e}")))?;
-        let mut found = group.consolidated_metadata.map(|c| c.metadata).unwrap_or_default();
+        let mut found = BTreeMap::new();
+        for (name, node) in group.consolidated_metadata.map(|c| c.metadata).unwrap_or_default() {
+            let array = array_of(node).map_err(|e| no(format!("zarr.json: `{}`: {e}", name.escape_debug())))?;
+            found.extend(array.map(|array| (name, array)));
+        }
         let order = marker.attributes.get("record_arrays").and_then(Value::as_array);
         let ordered = order.into_iter().flatten().filter_map(Value::as_str).map(String::from);
         let names = ordered.collect::<Vec<_>>();
@@ -152,6 +165,22 @@ impl Group {
     }
 }
 
+/// The arrays of a ragged group: where the entries of each sample begin, and these.
+fn ragged_arrays(ragged: &Ragged, chunk_rows: usize) -> impl Iterator<Item = ArrayInfo> {
+    let named = |name: &str| format!("{}/{name}", ragged.name);
+    let start = ArrayInfo::growing(&named(START), BOUNDARY, chunk_rows, "", "entry with which each sample begins");
+    let start = ArrayInfo { data_type: DataType::Int32, ..start };
+    let array = move |array: &RaggedArray| {
+        let mut info = ArrayInfo::of(&array.spec, Some((ENTRY, ragged.chunk_entries)));
+        info.name = named(&array.spec.name);
+        if let Some(codes) = &array.codes {
+            (info.data_type, info.meanings) = (DataType::Int32, codes.clone());
+        }
+        info
+    };
+    std::iter::once(start).chain(ragged.arrays.iter().map(array))
+}
+
 /// Refuses the names that this crate uses itself.
 fn check_attributes(attributes: &Attributes) -> Result<(), RecordError> {
     match attributes.keys().find(|name| name.starts_with("record_")) {
@@ -169,7 +198,7 @@ fn check_names(group: &Group) -> Result<(), String> {
         Err(format!("zarr.json names {what} `{}`; allowed are {allowed}", name.escape_debug()))
     };
     for array in &group.arrays {
-        if !is_name(&array.name) || array.name == STATE {
+        if !is_path(&array.name) {
             return refuse("the array", &array.name, "letters, digits and _, no digit first, and not `state`");
         }
         if let Some(dim) = array.dims.iter().find(|dim| !is_name(dim)) {

@@ -13,6 +13,13 @@ pub(crate) fn is_name(name: &str) -> bool {
     is_word(name) && !name.starts_with(|c: char| c.is_ascii_digit())
 }
 
+/// Whether this may be an array, or one in a group: `NAME` or `GROUP/NAME`.
+pub(crate) fn is_path(path: &str) -> bool {
+    let (group, name) = path.split_once('/').unwrap_or(("", path));
+    let is_free = |name: &str| is_name(name) && name != STATE;
+    is_free(name) && (group.is_empty() || is_free(group)) && !path.starts_with('/')
+}
+
 /// Whether this may name a kind of event.
 pub(crate) fn is_word(name: &str) -> bool {
     !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')

@@ -9,6 +9,7 @@ use crate::checkpoint::Checkpoint;
 use crate::chunks::{LastChunks, read_labels};
 use crate::disk;
 use crate::error::RecordError;
+use crate::layout::START;
 use crate::metadata::Group;
 use crate::writer::Event;
 use std::ops::Range;
@@ -37,7 +38,11 @@ impl Recording {
     /// # Errors
     /// `Missing`, `NotARecording`, `Version`, `Io`.
     pub fn open(path: &Path) -> Result<Self, RecordError> {
-        Ok(Self { path: path.to_path_buf(), group: disk::read_group(path)?, chunks: LastChunks::default() })
+        Ok(Self::of_group(path, disk::read_group(path)?))
+    }
+
+    pub(crate) fn of_group(path: &Path, group: Group) -> Self {
+        Self { path: path.to_path_buf(), group, chunks: LastChunks::default() }
     }
 
     /// The recording's path.
@@ -105,6 +110,26 @@ impl Recording {
     /// Those of [`read`](Recording::read).
     pub fn times(&self) -> Result<Vec<f64>, RecordError> {
         Ok(self.read("time")?.data)
+    }
+
+    /// The name of the group of entries of which each sample has a number of its own; none without one.
+    pub fn ragged(&self) -> Option<&str> {
+        self.group.ragged()
+    }
+
+    /// The entries of a sample in the arrays of that group.
+    ///
+    /// # Errors
+    /// `NoSuchArray` without one; `NoSuchRows`, `Truncated`, `Corrupt`, `Io`.
+    pub fn entries(&self, row: usize) -> Result<Range<usize>, RecordError> {
+        let name = self.ragged().ok_or_else(|| RecordError::NoSuchArray { name: START.into() })?;
+        let name = format!("{name}/{START}");
+        let start = self.read_rows(&name, row..row.saturating_add(2))?;
+        // Counts, by construction.
+        match start.data[..] {
+            [from, to] if from <= to => Ok(from as usize..to as usize),
+            _ => Err(RecordError::corrupt(&self.path.join(name), "the entries of the samples do not ascend")),
+        }
     }
 
     /// Reads a whole array.

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Arrays that grow together along one dimension.
 #[derive(Debug)]
 pub(crate) struct Stream {
-    /// `time` or `event`.
+    /// Along which they grow.
     pub(crate) dim: &'static str,
     pub(crate) rows: usize,
     chunk_rows: usize,

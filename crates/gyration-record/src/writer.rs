@@ -10,13 +10,14 @@
 //! nothing else, of two lengths until the run is resumed.
 
 use crate::Attributes;
-use crate::array::ArrayInfo;
+use crate::array::{ArrayInfo, DataType};
 use crate::checkpoint::Checkpoint;
 use crate::chunks;
 use crate::disk::{self, CHECKPOINT, Disk, METADATA, STATE};
 use crate::error::RecordError;
-use crate::layout::Layout;
+use crate::layout::{BOUNDARY, ENTRY, Layout, START};
 use crate::metadata::Group;
+use crate::recording::Recording;
 use crate::stream::Stream;
 use crate::zarr;
 use std::fs::File;
@@ -44,6 +45,8 @@ pub struct Writer {
     group: Group,
     samples: Stream,
     events: Option<Stream>,
+    /// Where the entries of each sample begin, and the entries; none without a ragged group.
+    ragged: Option<[Stream; 2]>,
     row_len: usize,
     /// Bytes of the row being appended.
     row: Vec<u8>,
@@ -91,13 +94,16 @@ impl Writer {
         disk.create_dir(&directory)?;
         disk.create_dir(&directory.join(STATE))?;
         let lock = disk::lock(&directory, path)?;
-        for array in &group.arrays {
-            disk.create_dir(&directory.join(&array.name))?;
+        let subgroup = group.ragged().map(Path::new);
+        for name in subgroup.into_iter().chain(group.arrays.iter().map(|array| Path::new(&array.name))) {
+            disk.create_dir(&directory.join(name))?;
         }
         let fixed = fixed_chunks(layout, &group);
         let files = fixed.iter().map(|(name, bytes)| (directory.join(name), bytes.as_slice()));
         disk.replace(&files.collect::<Vec<_>>())?;
-        Self::over(disk, path, directory, group, lock)
+        let mut writer = Self::over(disk, path, directory, group, lock)?;
+        writer.end_sample()?;
+        Ok(writer)
     }
 
     /// Opens a recording to go on from its last checkpoint; rows beyond it are cut off. All that stays is read once,
@@ -134,9 +140,12 @@ impl Writer {
             return Err(RecordError::corrupt(&file, "the checkpoint belongs to more rows than there are"));
         }
         // What is gone on with ends up in a recording that looks whole: nothing damaged may be in it.
-        chunks::verify(&group.arrays, path, &[("time", checkpoint.rows), ("event", checkpoint.events)])?;
+        let entries = entries_of(&group, path, checkpoint.rows)?;
+        let counts = [("time", checkpoint.rows), ("event", checkpoint.events)];
+        let ragged = [(BOUNDARY, checkpoint.rows + 1), (ENTRY, entries)];
+        chunks::verify(&group.arrays, path, &[counts, ragged].concat())?;
         let mut writer = Self::over(disk, path, path.to_path_buf(), group, lock)?;
-        writer.cut(&checkpoint)?;
+        writer.cut(&checkpoint, entries)?;
         Ok(Resumed { writer, checkpoint: checkpoint.state, attributes })
     }
 
@@ -150,6 +159,9 @@ impl Writer {
             disk,
             samples,
             events: Stream::new("event", &group.arrays),
+            ragged: Stream::new(BOUNDARY, &group.arrays)
+                .zip(Stream::new(ENTRY, &group.arrays))
+                .map(<[Stream; 2]>::from),
             row_len: growing.map(ArrayInfo::row_len).sum::<usize>() - 1,
             row: Vec::new(),
             group,
@@ -160,15 +172,17 @@ impl Writer {
     }
 
     /// Cuts back to the checkpoint; the metadata first, so that they never count what is gone.
-    fn cut(&mut self, to: &Checkpoint) -> Result<(), RecordError> {
-        self.group.set_rows("time", to.rows);
-        self.group.set_rows("event", to.events);
+    fn cut(&mut self, to: &Checkpoint, entries: usize) -> Result<(), RecordError> {
+        let counts = [("time", to.rows), ("event", to.events), (BOUNDARY, to.rows + 1), (ENTRY, entries)];
+        counts.into_iter().for_each(|(dim, rows)| self.group.set_rows(dim, rows));
         self.store_metadata()?;
-        self.samples.cut(to.rows, &self.disk, &self.directory)?;
-        if let Some(events) = &mut self.events {
-            events.cut(to.events, &self.disk, &self.directory)?;
+        let Self { samples, events, ragged, disk, directory, .. } = self;
+        for stream in std::iter::once(samples).chain(events).chain(ragged.iter_mut().flatten()) {
+            let rows = counts.iter().find(|(dim, _)| *dim == stream.dim).map_or(0, |(_, rows)| *rows);
+            stream.cut(rows, disk, directory)?;
         }
-        for place in [self.directory.clone(), self.directory.join(STATE)] {
+        let subgroup = self.group.ragged().map(|name| self.directory.join(name));
+        for place in [self.directory.clone(), self.directory.join(STATE)].into_iter().chain(subgroup) {
             for name in disk::list(&place)?.iter().filter(|name| disk::is_part(name)) {
                 self.disk.remove_file(&place.join(name))?;
             }
@@ -191,6 +205,51 @@ impl Writer {
         &self.group.attributes
     }
 
+    /// Appends entries of the sample that is appended next: the numbers of each in the order of the layout, one behind
+    /// the other, whole numbers where the array has such.
+    ///
+    /// # Errors
+    /// `RowLength`; `Layout` beyond 2³¹ − 1 entries; `Io` and then `Stopped`.
+    pub fn append_entries(&mut self, numbers: &[f64]) -> Result<(), RecordError> {
+        let types: Vec<DataType> = self.entry_types().collect();
+        if types.is_empty() || !numbers.len().is_multiple_of(types.len()) {
+            return Err(RecordError::RowLength { expected: types.len(), found: numbers.len() });
+        }
+        let count = numbers.len() / types.len();
+        let known = self.ragged.as_ref().map_or(0, |[_, entries]| entries.rows);
+        if known + count > i32::MAX as usize {
+            return Err(RecordError::layout(format!("a recording holds {} entries at most", i32::MAX)));
+        }
+        for entry in numbers.chunks_exact(types.len()) {
+            self.row.clear();
+            for (number, data_type) in entry.iter().zip(&types) {
+                match data_type {
+                    // A whole number, by contract.
+                    DataType::Int32 => self.row.extend((*number as i32).to_le_bytes()),
+                    DataType::Float64 | DataType::String => self.row.extend(number.to_le_bytes()),
+                }
+            }
+            self.guard(|writer| match &mut writer.ragged {
+                Some([_, entries]) => entries.push(&writer.row, &writer.disk, &writer.directory),
+                None => Ok(()),
+            })?;
+        }
+        Ok(())
+    }
+
+    /// The type of each number of an entry.
+    fn entry_types(&self) -> impl Iterator<Item = DataType> {
+        let entries = self.group.arrays.iter().filter(|array| array.grows_with(ENTRY));
+        entries.flat_map(|array| std::iter::repeat_n(array.data_type, array.row_len()))
+    }
+
+    /// Tells where the entries of the next sample begin.
+    fn end_sample(&mut self) -> Result<(), RecordError> {
+        let Self { ragged: Some([start, entries]), disk, directory, .. } = self else { return Ok(()) };
+        let count = i32::try_from(entries.rows).unwrap_or(i32::MAX);
+        start.push(&count.to_le_bytes(), disk, directory)
+    }
+
     /// Appends the sample of a time (in s): the numbers of all arrays in the order of the layout.
     ///
     /// # Errors
@@ -202,7 +261,10 @@ impl Writer {
         self.row.clear();
         self.row.extend(time.to_le_bytes());
         self.row.extend(row.iter().flat_map(|number| number.to_le_bytes()));
-        self.guard(|writer| writer.samples.push(&writer.row, &writer.disk, &writer.directory))
+        self.guard(|writer| {
+            writer.samples.push(&writer.row, &writer.disk, &writer.directory)?;
+            writer.end_sample()
+        })
     }
 
     /// Appends an event.
@@ -261,7 +323,8 @@ impl Writer {
     }
 
     fn store_rows(&mut self) -> Result<(), RecordError> {
-        for stream in [Some(&mut self.samples), self.events.as_mut()].into_iter().flatten() {
+        let ragged = self.ragged.iter_mut().flatten();
+        for stream in std::iter::once(&mut self.samples).chain(self.events.as_mut()).chain(ragged) {
             stream.store(&self.disk, &self.directory)?;
             if self.group.rows(stream.dim) != Some(stream.rows) {
                 self.group.set_rows(stream.dim, stream.rows);
@@ -276,7 +339,10 @@ impl Writer {
         let arrays = &self.group.arrays;
         let texts =
             arrays.iter().map(|array| (self.directory.join(&array.name).join(METADATA), zarr::array_json(array)));
-        let texts = texts.collect::<Vec<_>>();
+        let subgroup = self.group.ragged();
+        let subgroup =
+            subgroup.map(|name| (self.directory.join(name).join(METADATA), zarr::subgroup_json(name, arrays)));
+        let texts = texts.chain(subgroup).collect::<Vec<_>>();
         let files = texts.iter().map(|(path, text)| (path.clone(), text.as_slice())).collect::<Vec<_>>();
         self.disk.replace_lazily(&files)?;
         self.disk.replace(&[(self.directory.join(METADATA), &self.group.to_json())])?;
@@ -311,6 +377,17 @@ impl Writer {
             return Err(RecordError::Stopped { path: self.path.clone() });
         }
         operation(self).inspect_err(|_| self.failed = true)
+    }
+}
+
+/// How many entries so many samples have.
+fn entries_of(group: &Group, path: &Path, samples: usize) -> Result<usize, RecordError> {
+    let Some(name) = group.ragged() else { return Ok(0) };
+    let start = Recording::of_group(path, group.clone()).read_rows(&format!("{name}/{START}"), samples..samples + 1)?;
+    let count = start.data.first().map_or(0, |count| *count as usize);
+    match group.rows(ENTRY) {
+        Some(known) if count <= known => Ok(count),
+        _ => Err(RecordError::corrupt(&path.join(METADATA), "samples have more entries than there are")),
     }
 }
 

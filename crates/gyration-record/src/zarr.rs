@@ -17,18 +17,33 @@ pub(crate) fn array_json(array: &ArrayInfo) -> Vec<u8> {
 }
 
 /// The `zarr.json` of a whole recording: attributes in alphabetical order, whatever order they were set in.
-pub(crate) fn group_json<'a>(attributes: impl Iterator<Item = (&'a str, &'a Value)>, arrays: &[ArrayInfo]) -> Vec<u8> {
-    let metadata = arrays.iter().map(|array| (array.name.clone(), ZarrArray::of(array))).collect();
+pub(crate) fn group_json<'a>(
+    attributes: impl Iterator<Item = (&'a str, &'a Value)>,
+    arrays: &[ArrayInfo],
+    subgroup: Option<&str>,
+) -> Vec<u8> {
+    let arrays = arrays.iter().map(|array| (array.name.clone(), Node::Array(Box::new(ZarrArray::of(array)))));
+    let subgroup = subgroup.map(|name| (name.to_owned(), Node::Group(ZarrGroup::empty())));
     json(&ZarrGroup {
         attributes: attributes.collect(),
-        consolidated_metadata: Some(Consolidated { kind: "inline".into(), must_understand: false, metadata }),
+        consolidated_metadata: Some(Consolidated::of(arrays.chain(subgroup).collect())),
         ..ZarrGroup::empty()
     })
 }
 
+/// The `zarr.json` of a group within a recording, with the metadata of its arrays.
+pub(crate) fn subgroup_json(name: &str, arrays: &[ArrayInfo]) -> Vec<u8> {
+    let within = |array: &ArrayInfo| {
+        let own = array.name.strip_prefix(name)?.strip_prefix('/')?;
+        Some((own.to_owned(), Node::Array(Box::new(ZarrArray::of(array)))))
+    };
+    let metadata = arrays.iter().filter_map(within).collect();
+    json(&ZarrGroup { consolidated_metadata: Some(Consolidated::of(metadata)), ..ZarrGroup::empty() })
+}
+
 /// The `zarr.json` of the group that holds the state: it keeps readers from wondering about its files.
 pub(crate) fn state_json() -> Vec<u8> {
-    json(&ZarrGroup::empty())
+    json(&ZarrGroup::<_, ()>::empty())
 }
 
 /// Numbers in Zarr's `bytes`, little-endian.
@@ -75,19 +90,38 @@ pub(crate) struct Marker {
 
 /// The attributes are borrowed to write them; `Marker` reads them.
 #[derive(Serialize, Deserialize)]
-pub(crate) struct ZarrGroup<A = IgnoredAny> {
+pub(crate) struct ZarrGroup<A = IgnoredAny, N = Value> {
     zarr_format: u8,
     node_type: String,
     attributes: A,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) consolidated_metadata: Option<Consolidated>,
+    pub(crate) consolidated_metadata: Option<Consolidated<N>>,
 }
 
 #[derive(Serialize, Deserialize)]
-pub(crate) struct Consolidated {
+pub(crate) struct Consolidated<N> {
     kind: String,
     must_understand: bool,
-    pub(crate) metadata: BTreeMap<String, ZarrArray>,
+    pub(crate) metadata: BTreeMap<String, N>,
+}
+
+/// What a group holds.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Node<'a> {
+    Array(Box<ZarrArray>),
+    Group(ZarrGroup<BTreeMap<&'a str, &'a Value>, ()>),
+}
+
+/// An array of consolidated metadata; none of a group.
+///
+/// # Errors
+/// In words, where it is neither.
+pub(crate) fn array_of(node: Value) -> Result<Option<ZarrArray>, String> {
+    match node.get("node_type").and_then(Value::as_str) {
+        Some("group") => Ok(None),
+        _ => serde_json::from_value(node).map(Some).map_err(|error| error.to_string()),
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -159,7 +193,13 @@ fn codecs(data_type: DataType, is_checked: bool) -> Vec<Codec> {
     std::iter::once(plain).chain(is_checked.then_some(Codec::Checksum)).collect()
 }
 
-impl<'a> ZarrGroup<BTreeMap<&'a str, &'a Value>> {
+impl<N> Consolidated<N> {
+    fn of(metadata: BTreeMap<String, N>) -> Self {
+        Self { kind: "inline".into(), must_understand: false, metadata }
+    }
+}
+
+impl<'a, N> ZarrGroup<BTreeMap<&'a str, &'a Value>, N> {
     fn empty() -> Self {
         let attributes = BTreeMap::new();
         Self { zarr_format: 3, node_type: "group".into(), attributes, consolidated_metadata: None }

@@ -266,7 +266,7 @@ fn what_is_recorded_on_request_stands_beside_the_plan() {
                  elastic_stress eshelby";
     let quoted: Vec<String> = words.split(' ').map(|word| format!("\"{word}\"")).collect();
     let asked = scene(&format!("[record]\nquantities = [{}]\norigin = [0, 0, \"2 cm\"]", quoted.join(", ")));
-    let Record { quantities, origin } = &asked.built().record;
+    let Record { quantities, origin, .. } = &asked.built().record;
     assert_eq!(*origin, Vec3::new(0.0, 0.0, 0.02));
     assert_eq!((quantities.len(), quantities[9], quantities[21]), (22, Recorded::Stress, Recorded::Eshelby));
     assert_resolves_to_itself(&asked);

@@ -10,7 +10,7 @@ use crate::resistance::check_resistances;
 use crate::scales::{energy_scale, speed_scales, spring_frequency};
 use gyration::balance::fastest_speed;
 use gyration::body::{Body, NEAR};
-use gyration::dynamics::{Blocks, Workspace, gap_to_supports, jacobian, rates};
+use gyration::dynamics::{Blocks, Workspace, acting, gap_to_supports, jacobian, rates};
 use gyration::extended::Numbers;
 use gyration::instant::PairGaps;
 use gyration::model::Model;
@@ -54,6 +54,8 @@ pub struct ModelSystem {
     viscous: f64,
     /// The rates of the bodies at the start.
     first_rates: Vec<f64>,
+    /// Whether impulses of the contacts are integrated, and scratch for their forces.
+    impulses: Option<Box<State>>,
     /// Whether something was asked for that was given up.
     interrupted: bool,
 }
@@ -109,8 +111,40 @@ impl ModelSystem {
             radii,
             viscous,
             first_rates,
+            impulses: None,
             interrupted: false,
         }
+    }
+
+    /// The same with ∫ f dt of the contacts of each body, as quadratures behind the works that have no part in the
+    /// errors of a step.
+    #[must_use]
+    pub(crate) fn with_impulses(self, asked: bool) -> Self {
+        let bodies = vec![0.0; self.model.dimension()];
+        let scratch = State { time: 0.0, bodies, low: Vec::new(), works: Vec::new() };
+        Self { impulses: asked.then(|| Box::new(scratch)), ..self }
+    }
+
+    /// The contact forces of all bodies [N], one behind the other.
+    fn contact_forces(&mut self, t: f64, y: Numbers, forces: &mut [f64]) -> Result<(), Inadmissible> {
+        let Self { model, workspace, impulses: Some(state), .. } = self else { return Ok(()) };
+        state.time = t;
+        state.bodies.copy_from_slice(y.high);
+        state.low.clear();
+        state.low.extend_from_slice(y.low);
+        let (instant, scratch) = workspace.read(model, state)?;
+        for (index, force) in forces.as_chunks_mut::<3>().0.iter_mut().enumerate() {
+            *force = acting(&instant.at(index), scratch)?.contact.force.into();
+        }
+        Ok(())
+    }
+
+    /// Rates, powers of the works and, behind them, contact forces.
+    fn all_rates(&mut self, t: f64, y: Numbers, dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
+        let (powers, forces) = dw.split_at_mut(self.model.works().len());
+        let found = rates(&self.model, &mut self.workspace, t, y, dy, powers);
+        let found = found.and_then(|()| self.contact_forces(t, y, forces));
+        self.noted(found)
     }
 
     /// The model.
@@ -250,7 +284,11 @@ impl System for ModelSystem {
     }
 
     fn quadratures(&self) -> usize {
-        self.model.works().len()
+        self.model.works().len() + self.free_quadratures()
+    }
+
+    fn free_quadratures(&self) -> usize {
+        if self.impulses.is_some() { 3 * self.model.bodies.len() } else { 0 }
     }
 
     fn blocks(&self) -> &[Range<usize>] {
@@ -262,14 +300,11 @@ impl System for ModelSystem {
     }
 
     fn rates(&mut self, t: f64, y: &[f64], dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
-        let found = rates(&self.model, &mut self.workspace, t, y.into(), dy, dw);
-        self.noted(found)
+        self.all_rates(t, y.into(), dy, dw)
     }
 
     fn extended_rates(&mut self, t: f64, y: Extended, dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
-        let numbers = Numbers { high: y.high, low: y.low };
-        let found = rates(&self.model, &mut self.workspace, t, numbers, dy, dw);
-        self.noted(found)
+        self.all_rates(t, Numbers { high: y.high, low: y.low }, dy, dw)
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
@@ -328,7 +363,9 @@ impl System for ModelSystem {
                 y_scale[slots.extra()].fill(atol + (rtol + 4.0 * f64::EPSILON) * size);
             }
         }
-        w_scale.fill((atol + rtol) * energy);
+        let (of_works, free) = w_scale.split_at_mut(self.model.works().len());
+        of_works.fill((atol + rtol) * energy);
+        free.fill(f64::INFINITY);
     }
 
     fn project(&mut self, t: f64, y: &mut [f64], w: &mut [f64]) -> f64 {

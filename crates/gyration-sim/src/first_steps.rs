@@ -125,6 +125,7 @@ fn difference(
         ("outcome", outcomes[0] != outcomes[1]),
         ("row", format!("{:?}", after.rows) != format!("{:?}", again.rows)),
         ("event", after.events != again.events),
+        ("pair", after.exchanges != again.exchanges),
         ("state", whole.state() != resumed.state()),
         ("count of steps", whole.statistics() != resumed.statistics()),
         ("checkpoint", whole.checkpoint() != resumed.checkpoint()),

@@ -2,6 +2,7 @@
 
 use crate::adapter::Tolerance;
 use crate::rows::Extras;
+use gyration::model::Model;
 use gyration_ode::{ImplicitOrder, Method, Options};
 use gyration_scene::Built;
 use gyration_threads::Threads;
@@ -22,6 +23,8 @@ pub struct RunPlan {
     pub options: Options,
     /// What is recorded beyond the usual.
     pub extras: Extras,
+    /// Whether what acts between two is recorded.
+    pub pairs: bool,
     /// How many threads share the bodies out, one if that is not said; of no consequence to any number.
     pub threads: Option<NonZeroUsize>,
 }
@@ -30,6 +33,28 @@ pub struct RunPlan {
 const FEW: usize = 7;
 
 impl RunPlan {
+    /// How many quadratures a run of a model has: works and, where they are asked for, impulses, three a body.
+    pub(crate) fn count_quadratures(&self, model: &Model) -> usize {
+        model.works().len() + if self.extras.impulses() { 3 * model.bodies.len() } else { 0 }
+    }
+
+    /// The time of sample k [s]; one within 1e-9·sample of the end is the end.
+    pub(crate) fn sample_time(&self, k: u64) -> f64 {
+        let time = k as f64 * self.sample;
+        if (time - self.end).abs() <= 1e-9 * self.sample { self.end } else { time }
+    }
+
+    /// The number of the first sample behind a time [s], which ends the interval that the time is in.
+    pub(crate) fn next_sample(&self, time: f64) -> u64 {
+        if self.sample.is_infinite() {
+            return 1;
+        }
+        // A quotient is off by its rounding.
+        let near = ((time / self.sample) as u64).max(1);
+        let first = (near.saturating_sub(1).max(1)..=near).find(|k| self.sample_time(*k) > time);
+        first.unwrap_or_else(|| (near + 1..).find(|k| self.sample_time(*k) > time).unwrap_or(u64::MAX))
+    }
+
     /// The plan of a run that has the machine to itself: with as many threads as its scene asks for, else with one for
     /// each processor if there are more than a few bodies.
     pub fn alone(built: &Built) -> Self {
@@ -63,6 +88,7 @@ impl From<&Built> for RunPlan {
             tolerance: Tolerance { rtol: plan.rtol, atol: plan.atol },
             options: Options { method, order: ImplicitOrder::at_tolerance(plan.rtol), max_step, initial_step: None },
             extras: Extras::new(built.record.quantities.iter().copied(), built.record.origin),
+            pairs: built.record.pairs,
             threads: None,
         }
     }

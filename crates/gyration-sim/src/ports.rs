@@ -2,6 +2,7 @@
 
 use crate::events::Event;
 use crate::outcome::{Reason, Stop};
+use gyration::dynamics::Exchange;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{MemoryError, Statistics, StepReport};
@@ -16,6 +17,15 @@ pub trait Sink {
     /// Whatever keeps it from being stored.
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
         let _ = (time, row);
+        Ok(())
+    }
+
+    /// What any two do to each other at the sample whose row comes next, where the run is asked for it.
+    ///
+    /// # Errors
+    /// Whatever keeps it from being stored.
+    fn exchanges(&mut self, exchanges: &[Exchange]) -> Result<(), RecordError> {
+        let _ = exchanges;
         Ok(())
     }
 

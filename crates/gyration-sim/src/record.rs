@@ -7,10 +7,12 @@
 
 mod describe;
 mod differences;
+pub(crate) mod pairs;
 pub(crate) mod surfaces;
 
 use self::describe::{describe_solid_support, describe_support};
 pub use self::differences::differences;
+pub use self::pairs::pairs_csv;
 use self::surfaces::Surfaces;
 use crate::events::{EVENT_KINDS, Event};
 use crate::outcome::{Outcome, Reason};
@@ -22,6 +24,7 @@ use crate::run::Simulation;
 use crate::summary::RunSummary;
 use crate::survey::remarks::{LeftOut, Remarks};
 use gyration::body::{BodyKind, Solid};
+use gyration::dynamics::Exchange;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_record::{Attributes, Layout, RecordError, Recording, Writer, chunk_rows_for};
@@ -113,7 +116,7 @@ impl<'a> Job<'a> {
         self.interruption().within(|| {
             let mut simulation = Simulation::new(self.model, self.start, self.plan)?;
             let writer = Writer::create(path, &self.layout(), self.all_attributes())?;
-            let mut sink = RecordingSink { writer, flushed: Instant::now() };
+            let mut sink = RecordingSink::new(self.model, writer);
             simulation.begin(&mut sink)?;
             sink.writer.flush(&simulation.checkpoint())?;
             self.finish(path, simulation, sink, watch)
@@ -143,7 +146,7 @@ impl<'a> Job<'a> {
         let resumed = Writer::resume_finished(path, &RunSummary::ATTRIBUTES)?;
         self.interruption().within(|| {
             let simulation = Simulation::resume(self.model, self.start, self.plan, &resumed.checkpoint)?;
-            let sink = RecordingSink { writer: resumed.writer, flushed: Instant::now() };
+            let sink = RecordingSink::new(self.model, resumed.writer);
             self.finish(path, simulation, sink, watch)
         })
     }
@@ -157,7 +160,7 @@ impl<'a> Job<'a> {
         &self,
         path: &Path,
         mut simulation: Simulation,
-        mut sink: RecordingSink,
+        mut sink: RecordingSink<'_>,
         watch: &mut dyn Monitor,
     ) -> Result<RecordingEnd, RunError> {
         let began = Instant::now();
@@ -194,6 +197,7 @@ impl<'a> Job<'a> {
         Layout {
             arrays,
             fixed: Surfaces::of(self.model).arrays(),
+            ragged: self.plan.pairs.then(|| pairs::layout(self.model)),
             csv_order,
             labels: self.labels(),
             event_kinds: EVENT_KINDS.map(String::from).into(),
@@ -298,12 +302,25 @@ fn describe_body(body: &gyration::body::Body, name: &str, surface: Option<usize>
 }
 
 /// Writes to disk, and flushes now and then.
-struct RecordingSink {
+struct RecordingSink<'a> {
+    model: &'a Model,
     writer: Writer,
     flushed: Instant,
+    /// Scratch: entries of a sample.
+    entries: Vec<f64>,
 }
 
-impl Sink for RecordingSink {
+impl<'a> RecordingSink<'a> {
+    fn new(model: &'a Model, writer: Writer) -> Self {
+        Self { model, writer, flushed: Instant::now(), entries: Vec::new() }
+    }
+}
+
+impl Sink for RecordingSink<'_> {
+    fn exchanges(&mut self, exchanges: &[Exchange]) -> Result<(), RecordError> {
+        self.writer.append_entries(pairs::entries(self.model, exchanges, &mut self.entries))
+    }
+
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
         self.writer.append(time, row)
     }
@@ -338,11 +355,18 @@ pub struct MemorySink {
     pub rows: Vec<(f64, Vec<f64>)>,
     /// Events.
     pub events: Vec<Event>,
+    /// What acts between two at each sample, where a scene asks for it.
+    pub exchanges: Vec<Vec<Exchange>>,
 }
 
 impl Sink for MemorySink {
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
         self.rows.push((time, row.to_vec()));
+        Ok(())
+    }
+
+    fn exchanges(&mut self, exchanges: &[Exchange]) -> Result<(), RecordError> {
+        self.exchanges.push(exchanges.to_vec());
         Ok(())
     }
 

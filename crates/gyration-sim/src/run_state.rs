@@ -6,6 +6,7 @@
 
 use crate::in_play::InPlay;
 use crate::looseness::Looseness;
+use crate::peaks::Peaks;
 use crate::sum::Sum;
 use gyration::ledger::Work;
 use gyration_ode::{Integrator, MOST_COUNTED, Memory, Statistics};
@@ -30,6 +31,8 @@ pub struct RunState {
     pub smallest_gap: f64,
     /// How many events of each kind.
     pub events: [u64; 3],
+    /// The impulses of all bodies at the last sample [N s]; empty where they are not asked for.
+    pub(crate) sampled_impulses: Vec<f64>,
     /// What islands have done that are no more.
     pub(crate) settled: Settled,
 }
@@ -70,6 +73,8 @@ pub struct IslandState {
     pub signals: Vec<[f64; 3]>,
     /// The energy in play at the ends of its steps.
     pub in_play: InPlay,
+    /// The largest contact forces since the last sample, where they are asked for.
+    pub(crate) peaks: Peaks,
 }
 
 /// All that the rest of an island's path depends on.
@@ -106,11 +111,13 @@ impl RunState {
             numbers.for_each(|number| bytes.extend(number.to_le_bytes()));
         };
         list(&mut integers.into_iter());
+        let reals = [&reals[..], &self.sampled_impulses].concat();
         list(&mut reals.iter().map(|real| real.to_bits()));
         self.settled.write(&mut list);
         for IslandMemory { members, state, stepper } in islands {
             list(&mut members.iter().map(|body| *body as u64));
-            list(&mut std::iter::once(u64::from(state.is_parting)));
+            let peaks: Vec<u64> = state.peaks.bits().collect();
+            list(&mut [&[u64::from(state.is_parting)][..], &peaks].concat().into_iter());
             let [first, second] = state.largest_gains;
             let reals = [[state.slow_since, state.largest_projection, first], state.in_play.numbers()];
             let reals = [reals.as_flattened(), &[second]].concat();
@@ -126,16 +133,27 @@ impl RunState {
     pub(crate) fn restore(bytes: &[u8]) -> Option<(Self, Vec<IslandMemory>)> {
         let mut rest = bytes;
         let integers: [u64; 4] = list(&mut rest)?.try_into().ok()?;
-        let reals: [u64; 6] = list(&mut rest)?.try_into().ok()?;
+        let reals = list(&mut rest)?;
+        let (reals, impulses) = reals.split_first_chunk::<6>()?;
         let [time, initial_energy, largest_residual, of_lengths, of_pairs, smallest_gap] = reals.map(f64::from_bits);
+        let sampled_impulses = impulses.iter().map(|bits| f64::from_bits(*bits)).collect();
         let looseness = Looseness { of_lengths, of_pairs };
         let [next_sample, events @ ..] = integers;
         let settled = Settled::read(&mut rest)?;
         if !(time.is_finite() && integers.iter().all(|count| *count < MOST_COUNTED)) {
             return None;
         }
-        let state =
-            Self { time, next_sample, initial_energy, largest_residual, looseness, smallest_gap, events, settled };
+        let state = Self {
+            time,
+            next_sample,
+            initial_energy,
+            largest_residual,
+            looseness,
+            smallest_gap,
+            events,
+            sampled_impulses,
+            settled,
+        };
         let mut islands = Vec::new();
         while !rest.is_empty() {
             islands.push(IslandMemory::read(&mut rest)?);
@@ -185,15 +203,18 @@ impl IslandState {
 impl IslandMemory {
     /// Puts an island in the place of what is remembered.
     pub fn remember(&mut self, state: &IslandState, integrator: &Integrator) {
-        let mut signals = std::mem::take(&mut self.state.signals);
+        let (mut signals, mut peaks) = (std::mem::take(&mut self.state.signals), std::mem::take(&mut self.state.peaks));
         signals.clone_from(&state.signals);
-        self.state = IslandState { signals, ..*state };
+        peaks.copy_from(&state.peaks);
+        self.state = IslandState { signals, peaks, ..*state };
         integrator.remember(&mut self.stepper);
     }
 
     fn read(rest: &mut &[u8]) -> Option<Self> {
         let members = list(rest)?.into_iter().map(usize::try_from).collect::<Result<_, _>>().ok()?;
-        let [is_parting] = list(rest)?.try_into().ok()?;
+        let integers = list(rest)?;
+        let (is_parting, peaks) = integers.split_first()?;
+        let peaks = Peaks::of_bits(peaks);
         let reals: [u64; 7] = list(rest)?.try_into().ok()?;
         let [slow_since, largest_projection, first, in_play @ .., second] = reals.map(f64::from_bits);
         let (largest_gains, in_play) = ([first, second], InPlay::of_numbers(in_play));
@@ -203,9 +224,9 @@ impl IslandMemory {
             return None;
         }
         let stepper = Memory { integers: list(rest)?, reals: list(rest)?.into_iter().map(f64::from_bits).collect() };
-        let is_parting = is_parting != 0;
+        let is_parting = *is_parting != 0;
         let signals = signals.to_vec();
-        let state = IslandState { slow_since, largest_projection, largest_gains, is_parting, signals, in_play };
+        let state = IslandState { slow_since, largest_projection, largest_gains, is_parting, signals, in_play, peaks };
         Some(Self { members, state, stepper })
     }
 }

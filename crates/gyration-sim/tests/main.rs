@@ -8,6 +8,8 @@ mod counts;
 mod deforming;
 mod dissipation;
 mod equations;
+mod exchanges;
+mod impulses;
 mod interruptions;
 mod islands;
 mod joined;

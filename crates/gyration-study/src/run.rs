@@ -5,11 +5,14 @@ use crate::extract::{ColumnPlaces, Extractor};
 use crate::file::Recordings;
 use crate::study::Study;
 use crate::value::{Row, Value};
+use gyration::dynamics::Exchange;
+use gyration::model::Model;
 use gyration_record::{RecordError, Writer, remove};
 use gyration_scene::{Built, Scene, SceneErrors};
 use gyration_sim::events::Event;
 use gyration_sim::{
     Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, RunPlan, RunSummary, Simulation, Sink, Verdict,
+    entries,
 };
 use gyration_threads::Interruption;
 use std::path::{Path, PathBuf};
@@ -110,6 +113,7 @@ impl Study {
         if recording.is_none() && !self.needs_samples() {
             plan.sample = plan.end;
         }
+        plan.pairs &= recording.is_some();
         let extractor = match Extractor::new(self.keeps(), model, &ColumnPlaces::new(model, &plan)) {
             Ok(extractor) => extractor,
             Err(message) => return Ok(Some(self.failed(message))),
@@ -119,7 +123,7 @@ impl Study {
             Err(error) => return self.not_begun(error),
         };
         let writer = recording.map(|path| created(path, scene)).transpose()?;
-        let mut sink = Tee { extractor, writer };
+        let mut sink = Tee { model, extractor, writer };
         if let Err(error) = simulation.begin(&mut sink) {
             return self.not_begun(error);
         }
@@ -135,7 +139,7 @@ impl Study {
         let verdict = Verdict::of(model, &simulation);
         let ending = ending(&simulation, &outcome, limits.is_over, verdict);
         let is_early = matches!(outcome, Outcome::Stopped(_));
-        let Tee { extractor, writer } = sink;
+        let Tee { extractor, writer, .. } = sink;
         if let Some(writer) = writer {
             let checkpoint = simulation.checkpoint();
             let summary = RunSummary::of(model, &mut simulation, outcome, None);
@@ -245,12 +249,20 @@ impl Monitor for RunLimits {
 }
 
 /// What is kept, and the recording if there is one.
-struct Tee {
+struct Tee<'a> {
+    model: &'a Model,
     extractor: Extractor,
     writer: Option<Writer>,
 }
 
-impl Sink for Tee {
+impl Sink for Tee<'_> {
+    fn exchanges(&mut self, exchanges: &[Exchange]) -> Result<(), RecordError> {
+        match &mut self.writer {
+            Some(writer) => writer.append_entries(entries(self.model, exchanges, &mut Vec::new())),
+            None => Ok(()),
+        }
+    }
+
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
         if let Some(writer) = &mut self.writer {
             writer.append(time, row)?;

@@ -35,6 +35,7 @@ pub fn layout(chunk_rows: usize) -> Layout {
         ],
         event_kinds: ["touch", "part", "rest"].map(String::from).into(),
         csv_order: ["ball.x", "ball.y", "ball.z", "die.x", "die.y", "die.z", "energy.kinetic"].map(String::from).into(),
+        ragged: None,
         chunk_rows,
     }
 }

@@ -130,11 +130,13 @@ pub struct Record {
     pub quantities: Vec<Recorded>,
     /// The point about which total affine momentum is taken \[m\].
     pub origin: Vec3,
+    /// Whether what acts between two is recorded.
+    pub pairs: bool,
 }
 
 impl Record {
     fn new(written: &file::Record) -> Self {
-        Self { quantities: written.quantities.clone(), origin: si(&written.origin) }
+        Self { quantities: written.quantities.clone(), origin: si(&written.origin), pairs: written.pairs }
     }
 }
 

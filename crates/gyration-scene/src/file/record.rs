@@ -4,7 +4,7 @@ use crate::quantity::Length;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Further quantities that a recording shall hold, of each body.
+/// What a recording shall hold besides: further quantities of each body, what acts between two.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Record {
@@ -12,6 +12,14 @@ pub struct Record {
     pub quantities: Vec<Recorded>,
     /// The point about which total affine momentum and moment are taken (m).
     pub origin: [Length; 3],
+    /// Whether to record, for each sample, what acts between two: contacts, springs, bonds.
+    #[serde(skip_serializing_if = "is_left_out")]
+    pub pairs: bool,
+}
+
+/// A resolved scene that does not ask for pairs is what it was without the key.
+fn is_left_out(asked: &bool) -> bool {
+    !asked
 }
 
 /// A quantity that is recorded on request.
@@ -74,4 +82,8 @@ pub enum Recorded {
     ElasticStress,
     /// Eshelby's stress A = Fᵀ S Gᵀ − det G φ I, which drives the contraction (Pa).
     Eshelby,
+    /// ∫ f dt of the contacts of the body over the interval that ends with the sample (N s).
+    Impulse,
+    /// The largest |f| of the contacts of the body within that interval (N).
+    PeakForce,
 }

@@ -125,6 +125,12 @@ impl Island {
             for island in before {
                 if let Some(there) = island.members().iter().position(|other| *other == body) {
                     self.state.signals[place] = island.state.signals[there];
+                    self.state.peaks.sample = island.state.peaks.sample;
+                    if let (Some(own), Some(force)) =
+                        (self.state.peaks.forces.get_mut(place), island.state.peaks.forces.get(there))
+                    {
+                        *own = *force;
+                    }
                 }
             }
         }

@@ -13,6 +13,7 @@ mod merging;
 mod noting;
 mod path_bound;
 mod paths;
+mod peak_forces;
 pub(crate) mod pool;
 mod restart_point;
 mod rollback;
@@ -22,6 +23,7 @@ mod within;
 use crate::adapter::ModelSystem;
 use crate::events::{Event, Signals};
 use crate::outcome::Stop;
+use crate::peaks::Peaks;
 use crate::plan::RunPlan;
 use crate::run_state::{IslandMemory, IslandState};
 use gyration::model::Model;
@@ -53,7 +55,7 @@ pub(crate) struct Island {
     members: Vec<usize>,
     /// Where the numbers of each body stand among those of the run.
     places: Vec<Range<usize>>,
-    /// Which of the works of the run each of its own is.
+    /// Which of the quadratures of the run each of its own is: works and, where they are asked for, impulses.
     works: Vec<usize>,
     pub system: ModelSystem,
     pub integrator: Integrator,
@@ -71,6 +73,10 @@ pub(crate) struct Island {
     pub signals: Vec<Signals>,
     /// Scratch: since when each signal of each body is known within the step [s].
     pub since: Vec<[f64; 3]>,
+    /// The largest contact forces before the last step; those behind it stand in the state.
+    pub peaks_before: Peaks,
+    /// From when to when its interpolant is known [s]; none before the first step.
+    pub last_step: Option<(f64, f64)>,
     /// The last step.
     pub report: Option<StepReport>,
     /// How many steps it has made in this window.
@@ -95,18 +101,25 @@ impl Island {
         let places: Vec<Range<usize>> = members.iter().map(|body| model.blocks()[*body].clone()).collect();
         let of_part = |all: &[f64]| places.iter().flat_map(|place| all.get(place.clone())).flatten().copied().collect();
         let place = |work| model.works().iter().position(|other| *other == work);
-        let works: Vec<usize> = part.works().iter().filter_map(|work| place(*work)).collect();
+        let first = model.works().len();
+        let axes = members.iter().flat_map(|body| (0..3).map(move |axis| first + 3 * body + axis));
+        let impulses = axes.filter(|_| plan.extras.impulses());
+        let works: Vec<usize> = part.works().iter().filter_map(|work| place(*work)).chain(impulses).collect();
         let own = State {
             time: start.time,
             bodies: of_part(&start.bodies),
             low: of_part(&start.low),
-            works: works.iter().map(|work| start.works[*work]).collect(),
+            works: works.iter().map(|work| start.works.get(*work).copied().unwrap_or(0.0)).collect(),
         };
         let speeds = members.iter().map(|body| speeds[*body]).collect();
         let system = ModelSystem::of_run(part.clone(), &own, plan.tolerance, speeds);
         let system = system.map_err(|left| Stop::by_inadmissible(&part, start.time, &left))?;
+        let system = system.with_impulses(plan.extras.impulses());
         let integrator = Integrator::new(own.time, &own.bodies, &own.works, plan.options);
-        let state = IslandState::new(members.len());
+        let mut state = IslandState::new(members.len());
+        if plan.extras.peak_forces() {
+            state.peaks = Peaks { sample: plan.next_sample(start.time), forces: vec![0.0; members.len()] };
+        }
         let paths = (!stays).then(|| Paths::of(members.len()));
         let mut this = Self {
             members,
@@ -121,6 +134,8 @@ impl Island {
             events: Vec::new(),
             signals: Vec::new(),
             since: Vec::new(),
+            peaks_before: Peaks::default(),
+            last_step: None,
             report: None,
             window_steps: 0,
             stop: None,
@@ -212,6 +227,7 @@ impl Island {
         }
         self.integrator = integrator;
         self.state.clone_from(&memory.state);
+        self.last_step = None;
         if let Some(restart_point) = &mut self.restart_point {
             restart_point.drop_at(&self.state, &self.integrator);
         }
@@ -276,6 +292,7 @@ impl Island {
         self.state.note_dissipation(before, self.dissipation());
         self.note_in_play();
         self.find_events(&report);
+        self.note_peaks(report.start, report.end, plan);
         self.note_path_bounds(&report);
         self.note_parting();
         self.note_rest(plan, report.end);
@@ -307,6 +324,7 @@ impl Island {
     pub fn restart(&mut self) -> Result<(), Stop> {
         let restarted = self.integrator.restart(&mut self.system);
         restarted.map_err(|failure| Stop::by_failure(self.system.model(), &failure))?;
+        self.last_step = None;
         // Before the first step the rates at the start stand in the system.
         let (rates, _) = self.integrator.rates();
         step_end::read(&mut self.step_ends, self.system.model(), self.integrator.state(), rates);
@@ -362,8 +380,13 @@ impl Island {
         self.model().blocks().iter().zip(&self.places)
     }
 
-    /// Which of the works of the run each of its own is.
+    /// Which of the quadratures of the run each of its own is.
     pub fn works(&self) -> &[usize] {
         &self.works
+    }
+
+    /// Its works since it began [J].
+    pub fn done(&self) -> &[f64] {
+        &self.integrator.quadratures()[..self.model().works().len()]
     }
 }

@@ -21,7 +21,7 @@ impl Island {
     /// Notes the energy in play.
     pub fn note_in_play(&mut self) {
         let kinetic = self.kinetic_energy(0..self.members().len());
-        self.state.in_play.note(kinetic, self.integrator.quadratures());
+        self.state.in_play.note(kinetic, &self.integrator.quadratures()[..self.system.model().works().len()]);
     }
 
     /// Whether every body's fastest material point is slower than the speed of rest.

@@ -2,7 +2,7 @@
 //!
 //! A word may ask for several: those told kind by kind are an array a kind, as energies and works are.
 
-use super::fields::{BodyField, FieldValue, NO_MATRIX, NO_VECTOR, Rank};
+use super::fields::{BodyField, FieldValue, IMPULSE, NO_MATRIX, NO_VECTOR, PEAK_FORCE, Rank};
 use gyration::acting::LoadKind;
 use gyration_scene::Recorded;
 
@@ -28,6 +28,8 @@ pub(super) enum Source {
     Rest,
     /// The reaction of a guide.
     Guide,
+    /// What has come of the interval that ends with the row.
+    Interval,
 }
 
 /// What stands where nothing was observed.
@@ -69,7 +71,7 @@ macro_rules! matrix {
 
 /// A field of what is observed: NaN where it was not.
 macro_rules! extra {
-    ($word:ident, $source:ident, $name:literal, $units:literal, $description:expr, $rank:ident, $suffixes:expr,
+    ($word:ident, $source:ident, $name:expr, $units:literal, $description:expr, $rank:ident, $suffixes:expr,
      $context:ident => $found:expr) => {
         ExtraField {
             word: Recorded::$word,
@@ -117,7 +119,7 @@ macro_rules! by_kind {
 
 /// All but those told kind by kind, in the order in which they are recorded.
 #[rustfmt::skip]
-static FIELDS: [ExtraField; 27] = [
+static FIELDS: [ExtraField; 29] = [
     strain!(VelocityGradient, "velocity_gradient", "1/s",
         "velocity gradient L = Pdot P^-1", Matrix, &[], velocity_gradient),
     strain!(AffineMomentumTotal, "affine_momentum_total", "kg m2/s",
@@ -166,6 +168,10 @@ static FIELDS: [ExtraField; 27] = [
     strain!(Eshelby, "eshelby", "Pa",
         "Eshelby's stress A = F^T S G^T - det G phi I; NaN of a rigid body", Matrix,
         matrix!("eshelby"), elasticity.eshelby),
+    extra!(Impulse, Interval, IMPULSE, "N s", "impulse of the contact force since the last sample", Vector,
+        vector!("impulse"), context => context.impulse.unwrap_or(NO_VECTOR)),
+    extra!(PeakForce, Interval, PEAK_FORCE, "N", "largest contact force since the last sample", Scalar,
+        &["peak_force"], context => context.peak_force.unwrap_or(f64::NAN)),
 ];
 
 /// Those told kind by kind.

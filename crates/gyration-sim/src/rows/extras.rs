@@ -31,6 +31,16 @@ impl Extras {
         self.asked & bit(quantity) != 0
     }
 
+    /// Whether impulses are asked for, which a run integrates.
+    pub(crate) fn impulses(&self) -> bool {
+        self.asks_for(Recorded::Impulse)
+    }
+
+    /// Whether the largest contact forces are asked for, which a run looks for in each step.
+    pub(crate) fn peak_forces(&self) -> bool {
+        self.asks_for(Recorded::PeakForce)
+    }
+
     /// Whether something is asked for that is made of this.
     pub(super) fn need(&self, source: Source) -> bool {
         extra_fields().any(|extra| extra.source == source && self.asks_for(extra.word))

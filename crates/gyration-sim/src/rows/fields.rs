@@ -40,6 +40,10 @@ pub(super) struct BodyContext<'a> {
     pub displacement: Option<Vec3>,
     /// Where it was asked for, of a body with a guide.
     pub reaction: Option<&'a Reaction>,
+    /// What its contacts have pushed with since the last sample [N s], where it was asked for.
+    pub impulse: Option<Vec3>,
+    /// Their largest force since then [N], where it was asked for.
+    pub peak_force: Option<f64>,
     /// If it is immersed in a fluid.
     pub immersed: Option<&'a ImmersionObservation>,
 }
@@ -178,6 +182,8 @@ pub(super) const DRIVE: &str = "drive";
 pub(super) const PRESSURE: &str = "pressure";
 pub(super) const GAP: &str = "gap";
 pub(super) const CONTACT_FORCE: &str = "contact_force";
+pub(super) const IMPULSE: &str = "impulse";
+pub(super) const PEAK_FORCE: &str = "peak_force";
 
 /// A field of bodies in a fluid: NaN for any other.
 macro_rules! immersed {

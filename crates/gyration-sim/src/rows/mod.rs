@@ -13,7 +13,7 @@ pub use extras::Extras;
 use extra_fields::Source;
 use fields::{
     BODY_FIELDS, BodyContext, BodyField, CONTACT_FORCE, CONTRACTION, CONTRACTION_VELOCITY, DRIVE, FieldValue, GAP,
-    IMMERSED_FIELDS, PRESSURE, Rank, Reaction,
+    IMMERSED_FIELDS, IMPULSE, PEAK_FORCE, PRESSURE, Rank, Reaction,
 };
 use gyration::Inadmissible;
 use gyration::balance::{BodyObservation, energies, energies_at, observe_at};
@@ -57,8 +57,19 @@ pub struct RowScratch {
     reactions: Vec<Option<Reaction>>,
     immersed: Vec<Option<ImmersionObservation>>,
     joints: Vec<JointObservation>,
+    /// What has come of the interval that ends with the row, for whoever fills it to tell.
+    pub interval: Interval,
     /// The row last filled, flattened in the order of [`Fields::arrays`].
     pub row: Vec<f64>,
+}
+
+/// What has come of an interval that ends with a row, where it is asked for: else empty.
+#[derive(Debug, Clone, Default)]
+pub struct Interval {
+    /// ∫ f dt of the contacts of each body [N s], one behind the other.
+    pub impulses: Vec<f64>,
+    /// The largest |f| of the contacts of each body [N].
+    pub peak_forces: Vec<f64>,
 }
 
 impl Fields {
@@ -105,7 +116,7 @@ impl Fields {
         initial: Option<f64>,
         scratch: &mut RowScratch,
     ) -> Result<Audit, Inadmissible> {
-        let RowScratch { bodies, homogeneous, contacts, loads, reactions, immersed, joints, row } = scratch;
+        let RowScratch { bodies, homogeneous, contacts, loads, reactions, immersed, joints, interval, row } = scratch;
         bodies.clear();
         homogeneous.clear();
         contacts.clear();
@@ -147,6 +158,8 @@ impl Fields {
                     loads: loads.get(index),
                     reaction: reactions.get(index).and_then(Option::as_ref),
                     displacement: self.displacements.then(|| displacement(index)).flatten(),
+                    impulse: interval.impulses.as_chunks().0.get(index).map(|impulse: &[f64; 3]| Vec3::from(*impulse)),
+                    peak_force: interval.peak_forces.get(index).copied(),
                     immersed: immersed.get(index).and_then(Option::as_ref),
                 }) {
                     FieldValue::Scalar(value) => row.push(value),
@@ -203,7 +216,7 @@ fn columns(model: &Model, field: &BodyField, index: usize) -> Vec<String> {
     let body = &model.bodies[index];
     let applies = match field.name {
         GAP => body.solid.surface.is_some() && model.has_contact(index),
-        CONTACT_FORCE => model.has_contact(index),
+        CONTACT_FORCE | IMPULSE | PEAK_FORCE => model.has_contact(index),
         name => applies(name, body),
     };
     let name = |suffix: &&str| if applies { format!("{}.{suffix}", model.name(index)) } else { String::new() };

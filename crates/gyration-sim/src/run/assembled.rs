@@ -1,6 +1,7 @@
 //! The bodies of all islands at one time.
 
 use crate::island::Island;
+use crate::plan::RunPlan;
 use crate::run_state::Settled;
 use crate::sum::Sum;
 use gyration::model::Model;
@@ -10,14 +11,15 @@ use gyration::state::State;
 #[derive(Debug, Clone)]
 pub(super) struct Assembled {
     pub state: State,
+    /// Works and, behind them, impulses.
     works: Vec<Sum>,
 }
 
 impl Assembled {
     /// At the start of a run.
-    pub fn new(model: &Model, start: &State) -> Self {
+    pub fn new(model: &Model, start: &State, plan: &RunPlan) -> Self {
         let state = State { low: vec![0.0; start.bodies.len()], ..start.clone() };
-        Self { state, works: vec![Sum::default(); model.works().len()] }
+        Self { state, works: vec![Sum::default(); plan.count_quadratures(model)] }
     }
 
     /// Begins with a time [s] and what islands have done that are no more; every island is then to be added, in order.
@@ -38,6 +40,12 @@ impl Assembled {
         for (value, place) in part.works.iter().zip(island.works()) {
             self.works[*place].add(*value);
         }
+    }
+
+    /// ∫ f dt of the contacts of each body since the start [N s], one behind the other; none where that is not asked
+    /// for.
+    pub fn impulses(&self) -> impl Iterator<Item = f64> {
+        self.works.iter().skip(self.state.works.len()).map(Sum::value)
     }
 
     /// Ends with the sums of the works.

@@ -34,7 +34,7 @@ use crate::run_state::{IslandMemory, RunState};
 use crate::scales::speed_scales;
 use assembled::Assembled;
 use gyration::Inadmissible;
-use gyration::dynamics::Workspace;
+use gyration::dynamics::{Exchange, Workspace};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::Statistics;
@@ -57,6 +57,8 @@ pub struct Simulation {
     /// What the rows hold, and scratch for them.
     fields: Fields,
     rows: RowScratch,
+    /// What acts between two at the last sample, where that is asked for.
+    exchanges: Vec<Exchange>,
     workspace: Workspace,
     /// Scratch of the islands, where there are several.
     shared: ScratchPool,
@@ -106,9 +108,10 @@ impl Simulation {
             speeds,
             state: RunState::new(start.time),
             width: WindowWidth::new(plan.sample.min(plan.end)),
-            assembled: Assembled::new(model, start),
+            assembled: Assembled::new(model, start, &plan),
             fields: Fields::new(model, &plan.extras),
             rows: RowScratch::default(),
+            exchanges: Vec::new(),
             workspace: Workspace::default(),
             shared: ScratchPool::default(),
             recorded: f64::NEG_INFINITY,

@@ -271,13 +271,13 @@ impl Partition {
         let first = self.islands.remove(one);
         let mut members = [first.members(), second.members()].concat();
         members.sort_unstable();
-        let works = [&first, &second].map(|island| island.integrator.quadratures());
+        let works = [&first, &second].map(|island| island.done());
         let in_play = first.state.in_play.merged(works[0], second.state.in_play, works[1]);
         let merged = Island::successor(setting, members, &[&first, &second], in_play);
         match merged {
             Ok(mut merged) => {
                 merged.take_events([&*first, &*second]);
-                settle_works(settled, setting.model, [&*first, &*second]);
+                settle_works(settled, setting, [&*first, &*second]);
                 self.put([Box::new(merged)]);
             }
             Err(stop) => {
@@ -299,14 +299,14 @@ impl Partition {
             let members = places.iter().map(|place| island.members()[*place]).collect();
             let kinetic = island.kinetic_energy(places.iter().copied());
             let share = if whole > 0.0 { kinetic / whole } else { 1.0 / count };
-            let in_play = island.state.in_play.share(island.integrator.quadratures(), share);
+            let in_play = island.state.in_play.share(island.done(), share);
             Island::successor(setting, members, &[island], in_play)
         });
         let mut pieces = pieces.map(|piece| piece.map(Box::new)).collect::<Result<Islands, Stop>>()?;
         let island = self.islands.remove(index);
         // Its events are handed on by any of the pieces.
         pieces[0].take_events([&*island]);
-        settle_works(settled, setting.model, [&*island]);
+        settle_works(settled, setting, [&*island]);
         self.put(pieces);
         Ok(())
     }
@@ -369,9 +369,9 @@ fn known(island: &Island) -> Option<(&Paths, u64)> {
 }
 
 /// Keeps what islands have done that end here.
-fn settle_works<'a>(settled: &mut Settled, model: &Model, ended: impl IntoIterator<Item = &'a Island>) {
+fn settle_works<'a>(settled: &mut Settled, setting: Setting, ended: impl IntoIterator<Item = &'a Island>) {
     for island in ended {
-        settled.take(model.works().len(), island.works(), &island.integrator);
+        settled.take(setting.plan.count_quadratures(setting.model), island.works(), &island.integrator);
     }
 }
 

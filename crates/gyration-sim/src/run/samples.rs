@@ -5,6 +5,7 @@ use crate::looseness::Looseness;
 use crate::outcome::Stop;
 use crate::ports::{RunError, Sink};
 use crate::rows::{Audit, Fields, Ledger};
+use gyration::dynamics::exchanges;
 use gyration::{Inadmissible, Quantity};
 
 /// Bodies and pairs of bodies in the rows of a window at most: some tens of milliseconds.
@@ -13,10 +14,9 @@ const MOST_LOOKS: u64 = 4096;
 const LONGER: f64 = 2.0;
 
 impl Simulation {
-    /// The time of sample k [s]; one within 1e-9·sample of the end is the end.
+    /// The time of sample k [s].
     pub(super) fn sample_time(&self, k: u64) -> f64 {
-        let time = k as f64 * self.plan.sample;
-        if (time - self.plan.end).abs() <= 1e-9 * self.plan.sample { self.plan.end } else { time }
+        self.plan.sample_time(k)
     }
 
     /// Ends the next window before its rows take long, though the steps behind it go farther; an island that is the
@@ -72,8 +72,35 @@ impl Simulation {
         assembled.end();
     }
 
+    /// Finds what has come of the interval between the last sample and the time that was sampled.
+    fn find_interval(&mut self) {
+        let Self { model, plan, partition, assembled, state, rows, .. } = self;
+        let time = assembled.state.time;
+        let before = state.sampled_impulses.iter().copied().chain(std::iter::repeat(0.0));
+        rows.interval.impulses.clear();
+        rows.interval.impulses.extend(assembled.impulses().zip(before).map(|(now, before)| now - before));
+        rows.interval.peak_forces.clear();
+        if plan.extras.peak_forces() {
+            rows.interval.peak_forces.resize(model.bodies.len(), 0.0);
+            for island in &mut partition.islands {
+                let found = island.peaks_at(time, state.next_sample, plan);
+                for (body, force) in island.members().iter().zip(found) {
+                    rows.interval.peak_forces[*body] = force;
+                }
+            }
+        }
+    }
+
+    /// Finds what any two do to each other in the state that was sampled.
+    fn find_exchanges(&mut self) -> Result<(), Inadmissible> {
+        let Self { model, workspace, assembled, exchanges: found, .. } = self;
+        let (instant, scratch) = workspace.read(model, &assembled.state)?;
+        exchanges(&instant, scratch, found)
+    }
+
     /// Fills the row of the time that was sampled; `initial` is Σ energies at t = 0.
     fn fill(&mut self, initial: Option<f64>) -> Result<Audit, Inadmissible> {
+        self.find_interval();
         let Self { model, fields, workspace, assembled, rows, .. } = self;
         fields.fill(model, workspace, &assembled.state, initial, rows)
     }
@@ -126,8 +153,17 @@ impl Simulation {
         if !audit.energy.is_finite() {
             return Ok(Err(Stop::by_infinite_energy(time)));
         }
+        if self.plan.pairs {
+            if let Err(left) = self.find_exchanges() {
+                self.is_broken |= left.quantity == Quantity::Interruption;
+                return Ok(Err(Stop::by_inadmissible(&self.model, time, &left)));
+            }
+            sink.exchanges(&self.exchanges)?;
+        }
         sink.row(time, &self.rows.row)?;
         self.recorded = time;
+        self.state.sampled_impulses.clear();
+        self.state.sampled_impulses.extend(self.assembled.impulses());
         if first {
             let looseness = Looseness::of(&self.model, &mut self.workspace, &self.assembled.state, self.plan.tolerance);
             self.state.looseness = looseness.unwrap_or_default();

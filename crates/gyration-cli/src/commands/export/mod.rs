@@ -7,25 +7,35 @@ use crate::error::{CliError, code};
 use crate::input::stem;
 use crate::output;
 use gyration_record::{RecordError, Recording, cannot_write, export, replace_file};
+use gyration_sim::pairs_csv;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Writes the export.
 pub fn execute(arguments: &Export) -> Result<u8, CliError> {
-    let Export { recording: source, format, every, .. } = arguments;
+    let Export { recording: source, format, every, pairs, .. } = arguments;
     if every.is_some() && *format != ExportFormat::Vtk {
         return Err(CliError::arguments("--every is for vtk only", "leave it out; gltf is thinned to what is seen"));
     }
+    if *pairs && *format != ExportFormat::Csv {
+        let fix = "leave it out: npz has the pairs of a recording by itself, as pairs/first, pairs/force, …";
+        return Err(CliError::arguments("--pairs is for csv only", fix));
+    }
     let recording = Recording::open(source)?;
-    let path =
-        arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.{}", stem(source), ending(*format))));
+    if *pairs && recording.ragged().is_none() {
+        let fix = "write record = { pairs = true } in the scene, and run it anew";
+        return Err(CliError::arguments("the recording does not have what acts between two", fix));
+    }
+    let table = if *pairs { Table::Pairs } else { Table::Samples };
+    let ending = if *pairs { "pairs.csv" } else { ending(*format) };
+    let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.{ending}", stem(source))));
     if path == Path::new("-") {
-        return to_stdout(&recording, *format);
+        return to_stdout(&recording, *format, table);
     }
     let what = match format {
         ExportFormat::Csv => {
-            replace_file(&path, |partial| write_csv(&recording, partial))?;
+            replace_file(&path, |partial| write_csv(&recording, table, partial))?;
             format!("{} samples", recording.rows())
         }
         ExportFormat::Npz => {
@@ -55,20 +65,38 @@ fn ending(format: ExportFormat) -> &'static str {
     }
 }
 
-fn to_stdout(recording: &Recording, format: ExportFormat) -> Result<u8, CliError> {
+/// What a CSV has.
+#[derive(Clone, Copy)]
+enum Table {
+    /// A row a sample.
+    Samples,
+    /// A row a sample and pair.
+    Pairs,
+}
+
+impl Table {
+    fn write(self, recording: &Recording, out: &mut impl Write) -> Result<(), RecordError> {
+        match self {
+            Self::Samples => export::csv(recording, out),
+            Self::Pairs => pairs_csv(recording, out),
+        }
+    }
+}
+
+fn to_stdout(recording: &Recording, format: ExportFormat, table: Table) -> Result<u8, CliError> {
     if format != ExportFormat::Csv {
         let fix = format!("name a file with -o FILE.{}", ending(format));
         return Err(CliError::arguments("only csv can be written to stdout", fix));
     }
     let mut out = BufWriter::new(io::stdout().lock());
-    export::csv(recording, &mut out)?;
+    table.write(recording, &mut out)?;
     out.flush()?;
     Ok(code::DONE)
 }
 
-fn write_csv(recording: &Recording, path: &Path) -> Result<(), RecordError> {
+fn write_csv(recording: &Recording, table: Table, path: &Path) -> Result<(), RecordError> {
     let failed = cannot_write(path);
     let mut out = BufWriter::new(File::create(path).map_err(&failed)?);
-    export::csv(recording, &mut out)?;
+    table.write(recording, &mut out)?;
     out.flush().map_err(failed)
 }
