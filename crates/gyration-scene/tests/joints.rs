@@ -66,6 +66,18 @@ fn what_cannot_be_joined_is_refused_with_the_fix() {
         ("drive = { force = §1 }".to_owned(), "drive.force", "driven by a torque", "`torque`"),
         ("drive = §{}".to_owned(), "drive", "no `torque`", "torque = 1"),
         ("drive = { torque = \"2*§speed\" }".to_owned(), "drive.torque", "speed", "Expressions"),
+        (
+            "drive = { torque = §{ sine = { amplitude = \"2 N m\", frequency = 5, phase = \"90 deg\" } } }".to_owned(),
+            "drive.torque",
+            "found a table",
+            "\"2.0*sin(2*pi*5.0*t + 1.5707963267948966)\"",
+        ),
+        (
+            "drive = { torque = §{ ramp = { to = 3, duration = \"2 s\" } } }".to_owned(),
+            "drive.torque",
+            "found a table",
+            "\"0.0 + (3.0)*min(t/2.0, 1)\"",
+        ),
     ] {
         let hinge = format!("between = [\"a\", \"space\"]\nkind = \"hinge\"\naxis = [0, 1, 0]\n{lines}");
         assert_error(&joint(&hinge), &format!("joint.j.{key}"), message, help);
@@ -117,4 +129,74 @@ fn a_start_within_digits_of_its_joints_is_put_on_them() {
     let misfits = gyration::dynamics::Workspace::default().joint_misfits(&built.model, &built.state).unwrap();
     assert!(misfits[0].place < 1e-16, "{misfits:?}");
     assert_eq!((built.model.joints().len(), &*built.model.joints()[0].name), (1, "j"));
+}
+
+/// A parallelogram of two cranks and a coupler in the plane of x and z, whose last joint is written out.
+fn parallelogram(last: &str) -> String {
+    let link = |name: &str, [x, z]: [f64; 2], size: &str| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nposition = [{x:?}, 0, {z:?}]\nshape = {{ box = {{ size = {size} }} }}\nmass = 1\n"
+        )
+    };
+    let hinge = |name: &str, between: [&str; 2], points: [[f64; 3]; 2]| {
+        format!(
+            "[[joint]]\nname = \"{name}\"\nbetween = {between:?}\nkind = \"hinge\"\naxis = [0, 1, 0]\npoints = {points:?}\n"
+        )
+    };
+    [
+        TIME,
+        &link("l", [0.0, -0.5], "[0.1, 0.1, 1]"),
+        &link("c", [0.4, -1.0], "[0.8, 0.1, 0.1]"),
+        &link("r", [0.8, -0.5], "[0.1, 0.1, 1]"),
+        &hinge("A", ["space", "l"], [[0.0; 3], [0.0, 0.0, 0.5]]),
+        &hinge("B", ["l", "c"], [[0.0, 0.0, -0.5], [-0.4, 0.0, 0.0]]),
+        &hinge("C", ["c", "r"], [[0.4, 0.0, 0.0], [0.0, 0.0, -0.5]]),
+        last,
+    ]
+    .concat()
+}
+
+#[test]
+fn fourth_hinge_of_a_loop_in_a_plane_is_told_and_moves_as_the_fix_says() {
+    let hinge = "§[[joint]]\nname = \"D\"\nbetween = [\"r\", \"space\"]\nkind = \"hinge\"\naxis = [0, 1, 0]\n\
+                 points = [[0, 0, 0.5], [0.8, 0, 0]]\n";
+    assert_error(&parallelogram(hinge), "joint.D", "3 of its 5 equations follow", "two distances");
+    let distance = |name: &str, anchor: &str| {
+        format!(
+            "[[joint]]\nname = \"{name}\"\nbetween = [\"r\", \"space\"]\nkind = \"distance\"\n\
+             points = [[0, 0, 0.5], {anchor}]\n"
+        )
+    };
+    let loads = |text: &str| Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap();
+    let fixed = loads(&parallelogram(&[distance("D", "[1.8, 0, 0]"), distance("E", "[0.8, 0, 1]")].concat()));
+    let equations: usize = fixed.built().model.joints().iter().map(|joint| joint.rows().len()).sum();
+    // 18 coordinates, of which one is free.
+    assert_eq!(equations, 17);
+    let ball = hinge.replacen("§", "", 1).replace("\"hinge\"\naxis = [0, 1, 0]", "\"ball\"");
+    let text = parallelogram(&ball);
+    let joint = text.find("name = \"C\"").unwrap();
+    let (before, after) = text.split_at(joint);
+    loads(&[before, &after.replacen("\"hinge\"\naxis = [0, 1, 0]", "\"ball\"", 1)].concat());
+}
+
+#[test]
+fn joint_at_a_pin_is_told_to_take_its_place() {
+    let pinned = BOXES.replacen("mass = 1\n", "mass = 1\npin = [0, 0, 0.1]\n", 1);
+    let ball = "§[[joint]]\nname = \"j\"\nbetween = [\"a\", \"space\"]\nkind = \"ball\"\npoints = [[0, 0, 0.1], [0, 0, 0.1]]\n";
+    assert_error(&format!("{TIME}{pinned}{ball}"), "joint.j", "3 of its 3 equations", "a pin holds a point already");
+}
+
+#[test]
+fn reference_distance_of_a_stop_is_one_if_left_out() {
+    let hinge = |d0: &str| {
+        let text = format!(
+            "{TIME}{BOXES}[[joint]]\nname = \"j\"\nbetween = [\"a\", \"space\"]\nkind = \"hinge\"\naxis = [0, 1, 0]\n\
+             limits = [-1, 1]\nstop = {{ repulsion = {{ alpha = 1, nu = 2{d0} }}, damping = {{ beta = 1, nu = 2{d0} }} }}\n"
+        );
+        let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
+        assert_resolves_to_itself(&scene);
+        scene.built().model.joints()[0].motor.clone()
+    };
+    assert_eq!(hinge(""), hinge(", d0 = 1"));
+    assert_ne!(hinge(""), hinge(", d0 = 0.1"));
 }

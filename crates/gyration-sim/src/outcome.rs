@@ -278,10 +278,13 @@ impl Stop {
                 "Its stop does not forbid that: raise its exponent, its coefficient or d0, or reduce the speed."
                     .to_string(),
             ),
-            Quantity::Joints => (
+            Quantity::Joints { joint } => (
                 Reason::Locked,
-                "the equations of joints become dependent: a linkage is stretched out, or folded, to where it is locked"
-                    .to_string(),
+                format!(
+                    "the equations of the joint {:?} come to depend on those of others: a linkage is stretched out, or \
+                     folded, to where it is locked",
+                    model.joints()[joint].name
+                ),
                 "End the run before, change the lengths so that the linkage does not reach such a place, or start it \
                  elsewhere."
                     .to_string(),

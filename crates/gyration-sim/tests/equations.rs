@@ -33,6 +33,12 @@ position = [0, 0, 1]
 inclusion = {}
 spring = [{ anchor = [0, 0, 2], stiffness = 1, rest_length = 0.5, damping = 1 }]
 contractile = { material = { neo_hookean = { shear = 1000 } }, viscosity = 1, contraction_viscosity = 1 }
+[[joint]]
+name = "NAME"
+between = ["NAME", "space"]
+kind = "hinge"
+axis = [0, 1, 0]
+points = [[0, 0, 0], [0, 0, 1]]
 "#;
 
 /// Arrays and columns of a recording of that scene.

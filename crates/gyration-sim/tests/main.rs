@@ -13,6 +13,8 @@ mod impulses;
 mod interruptions;
 mod islands;
 mod joined;
+mod joint_modes;
+mod joint_survey;
 mod joints;
 mod lattices;
 mod meetings;

@@ -63,7 +63,10 @@ pub enum Quantity {
     },
     /// The least pivot of the equations of joints, which must be independent: a linkage is stretched out, or folded, to
     /// where it is locked.
-    Joints,
+    Joints {
+        /// Index in the model of the joint whose equations follow from those of others.
+        joint: usize,
+    },
     /// det P, which must be > 0: the body is not turned inside out.
     Volume,
     /// det G, which must be > 0: the relaxed body has a volume.

@@ -35,8 +35,16 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
     let steps = arguments.steps.map(first_steps).transpose()?;
     let text = if arguments.json {
         let mut value = json!({ "scene": scene.name(), "resolved": scene.resolved(), "bodies": survey.bodies });
-        if !survey.springs.is_empty() {
-            value["springs"] = json!(survey.springs);
+        let told = [
+            ("supports", json!(survey.supports)),
+            ("joints", json!(survey.joints)),
+            ("linkages", json!(survey.linkages)),
+            ("springs", json!(survey.springs)),
+        ];
+        for (name, list) in told {
+            if list.as_array().is_some_and(|list| !list.is_empty()) {
+                value[name] = list;
+            }
         }
         if !survey.meetings.is_empty() {
             value["meetings"] = json!(survey.meetings);

@@ -44,12 +44,33 @@ pub(super) fn check_start(model: &Model, state: &mut State, joints: &[PlacedJoin
             "the joint \"{name}\" is over-determined: {dependent} of its {all} equations follow from those of the \
              joints before it, or hold what is held already"
         );
-        let help = "leave it out, or write a kind that holds less: a loop of four hinges in a plane moves as one of \
-                    two hinges and two balls";
-        reporter.note(key, message, help);
+        reporter.note(key, message, help_of_dependent(model, joint));
         return;
     }
     *state = nearest;
+}
+
+/// The fix for a joint that is over-determined.
+fn help_of_dependent(model: &Model, joint: &Joint) -> &'static str {
+    let bodies = || joint.parties().into_iter().filter_map(Party::body);
+    if bodies().any(|body| model.bodies[body].pin.is_some()) {
+        return "a pin holds a point already: leave the pin out and write a ball to \"space\" in its place, or leave the \
+                joint out";
+    }
+    if bodies().any(|body| model.bodies[body].guide.is_some()) {
+        return "`keep` holds directions already: leave `keep` out, which the hinges of a linkage in a plane do not need, \
+                or write a kind that holds less";
+    }
+    match joint.kind {
+        JointKind::Hinge => {
+            "leave it out if the others hold the bodies; in a loop of hinges in a plane write in the place of this one two \
+             distances, from its point on the one to two places of the other, in the plane and in different directions \
+             (or balls in the place of two hinges, between which a link may spin)"
+        }
+        JointKind::Ball | JointKind::Slider | JointKind::Weld | JointKind::Distance => {
+            "leave it out, or write a kind that holds less"
+        }
+    }
 }
 
 /// A joint and the state that it starts in.

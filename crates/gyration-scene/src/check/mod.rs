@@ -10,6 +10,7 @@ mod joints;
 mod named;
 mod partial;
 mod rule;
+mod signal_help;
 mod structure;
 mod values;
 

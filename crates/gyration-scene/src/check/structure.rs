@@ -4,6 +4,7 @@
 
 use super::fixed;
 use super::rule::{FieldRule, NumberLimits, Rule, Rules};
+use super::signal_help::as_expression;
 use crate::document::Diagnostics;
 use crate::error::ErrorKind;
 use crate::key::Key;
@@ -262,6 +263,10 @@ fn mismatch_help(value: &Value, rule: &Rule, expected: &str) -> String {
         (Value::Text(text), Rule::Choice { tags, .. }) if tags.contains_key(text) => {
             format!("write {{ {text} = {{ … }} }}")
         }
+        (Value::Table(table), Rule::Expression) => match as_expression(table) {
+            Some(expression) => format!("write the same as an expression: \"{expression}\""),
+            None => format!("write {expected}"),
+        },
         _ => format!("write {expected}"),
     }
 }

@@ -52,8 +52,13 @@ pub struct StopRepulsion {
     pub alpha: NonNegative<AnyQuantity>,
     /// Exponent ν ≥ 1.
     pub nu: Positive<f64>,
-    /// Reference distance d₀: of a hinge (rad), of a slider (m).
+    /// Reference distance d₀: of a hinge (rad), of a slider (m); one of these if absent.
+    #[serde(default = "one")]
     pub d0: Positive<AnyQuantity>,
+}
+
+fn one() -> Positive<AnyQuantity> {
+    Positive(AnyQuantity(1.0))
 }
 
 /// Torque or force β (d/d₀)^−ν per rate at a limit.
@@ -64,7 +69,8 @@ pub struct StopDamping {
     pub beta: NonNegative<AnyQuantity>,
     /// Exponent ν > 0.
     pub nu: Positive<f64>,
-    /// Reference distance d₀: of a hinge (rad), of a slider (m).
+    /// Reference distance d₀: of a hinge (rad), of a slider (m); one of these if absent.
+    #[serde(default = "one")]
     pub d0: Positive<AnyQuantity>,
 }
 

@@ -142,7 +142,7 @@ struct Balance {
 
 impl Balance {
     fn at(frozen: &mut FrozenSystem, numbers: &[f64]) -> Result<Self, NoRest> {
-        let coordinates = SystemCoordinates::at(frozen, numbers);
+        let coordinates = SystemCoordinates::at(frozen, numbers)?;
         let gaps = frozen.gaps(numbers);
         let size = |body: usize| frozen.bodies()[body].size;
         let shortest = |(body, gaps): (usize, &Vec<f64>)| gaps.iter().copied().fold(size(body), f64::min);
@@ -179,6 +179,9 @@ impl Search {
     /// Goes one step; true at the end.
     fn step(&mut self, frozen: &mut FrozenSystem) -> Result<bool, NoRest> {
         let balance = Balance::at(frozen, &self.numbers)?;
+        if balance.force.is_empty() {
+            return Ok(true);
+        }
         let way = self.direction(frozen, &balance);
         let shapes = balance.coordinates.shapes(frozen, &way);
         let size = balance.size(&shapes, &balance.lengths, 1.0);
@@ -248,11 +251,11 @@ impl Search {
         for _ in (0..HALVINGS).take_while(|_| Interruption::due().is_none()) {
             let mut ahead = numbers.clone();
             coordinates.advance_places(&mut ahead, &(part * way));
-            frozen.project(&mut ahead);
+            let is_held = frozen.project(&mut ahead);
             let keeps_volume = volumes(frozen, &ahead).iter().zip(&before).all(|(new, old)| *new > LEAST_KEPT * old);
             let new_gaps = frozen.gaps(&ahead);
             let mut both = new_gaps.iter().flatten().zip(gaps.iter().flatten());
-            let kept = keeps_volume && both.all(|(new, old)| *new > LEAST_KEPT * old || new.is_infinite());
+            let kept = is_held && keeps_volume && both.all(|(new, old)| *new > LEAST_KEPT * old || new.is_infinite());
             if kept && let Ok(rates) = frozen.rates(&ahead) {
                 let (before, after) = (force.dot(way), coordinates.force(&rates).dot(way));
                 // Forces at rest are rounding; their work tells nothing.

@@ -7,7 +7,7 @@ use gyration::balance::observe;
 use gyration::body::{Body, BodyKind, Slots, matrix};
 use gyration::contact::{Action, Term};
 use gyration::contractile::ContractionSource;
-use gyration::dynamics::{Workspace, jacobian, rates};
+use gyration::dynamics::{Held, JointEquation, Workspace, jacobian, rates};
 use gyration::fluid::Fluid;
 use gyration::lattice::Cell;
 use gyration::load::{Interaction, Party};
@@ -31,12 +31,19 @@ pub(super) struct FrozenSystem {
     springs: Vec<usize>,
     /// The numbers in the scene of its bonds.
     bonds: Vec<usize>,
+    /// The numbers in the scene of its joints.
+    joints: Vec<usize>,
     /// The numbers of the state at the start, without velocities.
     pub start: Vec<f64>,
     /// Whether each body has no inertia in the scene: here all have, which rests do not feel.
     weightless: Vec<bool>,
     evaluations: usize,
 }
+
+/// Places are put back to joints and bodies in turn so often at most: each time squares what is left.
+const HOLDS: usize = 10;
+/// Joints hold to this part of the smallest body, as at a start.
+const HELD: f64 = 1e-9;
 
 /// What the contractions of a frozen system do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,6 +78,7 @@ impl FrozenSystem {
             members: members.to_vec(),
             springs: numbers_among(model.springs(), members),
             bonds: numbers_among(model.bonds(), members),
+            joints: numbers_among(model.joints(), members),
             start: numbers,
             weightless: members.iter().map(|member| !model.bodies[*member].has_inertia()).collect(),
             evaluations: 0,
@@ -127,11 +135,13 @@ impl FrozenSystem {
         self.model.in_space(body, place)
     }
 
-    /// Whether a pin, a spring to an anchor, a support with a shape or a force of its own may hold one of them.
+    /// Whether a pin, a joint to space, a spring to an anchor, a support with a shape or a force of its own may hold
+    /// one of them.
     pub fn is_anchored(&self) -> bool {
         let is_carried = !self.model.pairs_with_supports().is_empty();
         let is_held = self.model.springs().iter().any(|spring| spring.law.stiffness > 0.0 && spring.bodies().is_none());
-        is_held || is_carried || self.model.bodies.iter().any(|body| body.pin.is_some() || body.own.hold())
+        let is_linked = self.model.joints().iter().any(|joint| joint.bodies().is_none());
+        is_held || is_linked || is_carried || self.model.bodies.iter().any(|body| body.pin.is_some() || body.own.hold())
     }
 
     pub fn gravity(&self) -> Vec3 {
@@ -146,6 +156,11 @@ impl FrozenSystem {
             Quantity::Formula { of: FormulaOf::Bond(bond), undefined } => {
                 Quantity::Formula { of: FormulaOf::Bond(self.bonds[bond]), undefined }
             }
+            Quantity::Formula { of: FormulaOf::Joint(joint), undefined } => {
+                Quantity::Formula { of: FormulaOf::Joint(self.joints[joint]), undefined }
+            }
+            Quantity::JointLimit { joint } => Quantity::JointLimit { joint: self.joints[joint] },
+            Quantity::Joints { joint } => Quantity::Joints { joint: self.joints[joint] },
             Quantity::PairGap { other, rule } => Quantity::PairGap { other: self.in_scene(other), rule },
             Quantity::PairPlane { other, rule } => Quantity::PairPlane { other: self.in_scene(other), rule },
             other => other,
@@ -178,6 +193,16 @@ impl FrozenSystem {
         let done = jacobian(&self.model, &mut self.workspace, self.time, numbers.into(), &mut slopes);
         done.map_err(|left| self.outside(left))?;
         Ok(slopes)
+    }
+
+    /// The equations of the joints at a configuration.
+    pub fn joint_equations(&mut self, numbers: &[f64]) -> Result<Vec<JointEquation>, Inadmissible> {
+        if self.model.joints().is_empty() {
+            return Ok(Vec::new());
+        }
+        let state = self.state(numbers);
+        let found = self.workspace.joint_equations(&self.model, &state);
+        found.map_err(|left| self.outside(left))
     }
 
     pub fn motion(&self, numbers: &[f64], body: usize) -> BodyMotion {
@@ -238,8 +263,29 @@ impl FrozenSystem {
         })
     }
 
+    /// Puts quaternions, P and G back to where they belong, and places to the joints; false where that is too far.
+    pub fn project(&mut self, numbers: &mut [f64]) -> bool {
+        self.project_bodies(numbers);
+        if self.model.joints().is_empty() {
+            return true;
+        }
+        let size = self.model.bodies.iter().map(|body| body.size).fold(f64::INFINITY, f64::min);
+        let mut last = f64::INFINITY;
+        for _ in 0..HOLDS {
+            let mut held = Held { time: self.time, high: &mut *numbers, low: &mut [] };
+            let Ok(misfit) = self.workspace.hold_places(&self.model, &mut held) else { return false };
+            // What bodies themselves keep leaves to second order what joints do.
+            self.project_bodies(numbers);
+            if misfit >= 0.5 * last || misfit == 0.0 {
+                return misfit <= HELD * size;
+            }
+            last = misfit;
+        }
+        false
+    }
+
     /// Puts quaternions, P and G back to where they belong.
-    pub fn project(&self, numbers: &mut [f64]) {
+    fn project_bodies(&self, numbers: &mut [f64]) {
         for (body, kind) in self.model.bodies.iter().map(|body| &body.kind).enumerate() {
             let slots = self.slots(body);
             if self.model.bodies[body].guide.is_some() {

@@ -2,12 +2,12 @@
 //!
 //!   rest: a(q, 0) = 0, a the accelerations;   about it  ξ̈ + C ξ̇ + K ξ = 0,   ξ ∝ e^{λt},   λ = −δ ± iω
 //!
-//! q are the coordinates of one body, or of a system: bodies that springs or contacts join. ξ are small changes of them
-//! along which the mass is one (`coordinates`): twelve of an affine body, nine of a pinned one, one less each if it is
-//! incompressible, six or three of a rigid one; those of a system are those of its bodies, one after the other
-//! (`system`). K and C come from the exact Jacobian; neither needs to be symmetric, since tractions per deformed area,
-//! couples and gyroscopic loads have no potential. `equilibrium` finds the rest state downhill from the start of a run,
-//! `spectrum` solves for λ, `words` says what a mode is.
+//! q are the coordinates of one body, or of a system: bodies that springs, bonds, joints or contacts join. ξ are small
+//! changes of them along which the mass is one (`coordinates`): twelve of an affine body, nine of a pinned one, one
+//! less each if it is incompressible, six or three of a rigid one; those of a system are those of its bodies, one after
+//! the other (`system`), within their joints (`tangent`). K and C come from the exact Jacobian; neither needs to be
+//! symmetric, since tractions per deformed area, couples and gyroscopic loads have no potential. `equilibrium` finds
+//! the rest state downhill from the start of a run, `spectrum` solves for λ, `words` says what a mode is.
 //!
 //! The contraction G of a body that drives itself is a state of first order (`contraction`): at rest it stands still
 //! too, in the state next to the one that the body gets to while G is held. Where there is none G stays held.
@@ -28,12 +28,14 @@ mod shape;
 mod slopes;
 mod spectrum;
 mod system;
+mod tangent;
 mod weightless;
 mod words;
 
 pub use participation::{PARTS, Participation};
 pub use shape::ModeShape;
 
+use coordinates::Coordinates;
 use frozen::{FrozenContraction, FrozenSystem};
 use gyration::Inadmissible;
 use gyration::body::matrix;
@@ -120,9 +122,6 @@ pub enum NoRest {
          history = false to leave that out"
     )]
     Remembered,
-    /// Joints hold it.
-    #[error("a joint holds the body: this version has no rest states and modes of joined bodies")]
-    Jointed,
     /// Other bodies act on it.
     #[error("others act on the body: `gyration modes` looks for the rest that they have together")]
     ActedOn,
@@ -225,9 +224,6 @@ pub fn system_rest(model: &Model, start: &State, members: &[usize]) -> Result<Ve
     if members.iter().any(|body| model.bodies[*body].history().is_some()) {
         return Err(NoRest::Remembered);
     }
-    if members.iter().any(|body| model.joints_of(*body).next().is_some()) {
-        return Err(NoRest::Jointed);
-    }
     let mut frozen = FrozenSystem::new(model, start, members, FrozenContraction::Held);
     let held = match equilibrium::find(&mut frozen) {
         Err(_) if Interruption::due().is_some() => return Err(NoRest::Interrupted),
@@ -249,7 +245,7 @@ fn contracting(model: &Model, start: &State, members: &[usize], held: Vec<Rest>)
         }
     }
     let rates = frozen.rates(&numbers)?;
-    let speeds = SystemCoordinates::at(&frozen, &numbers).contraction_velocities(&frozen, &numbers, &rates);
+    let speeds = SystemCoordinates::at(&mut frozen, &numbers)?.contraction_velocities(&frozen, &numbers, &rates);
     match settled(&mut frozen, numbers)? {
         Some(numbers) => {
             let stands =
@@ -287,6 +283,11 @@ pub fn system_modes(model: &Model, start: &State, members: &[usize], rests: &[Re
     Ok(modes)
 }
 
+/// How many coordinates of small motions a body has, the joints and all that acts aside.
+pub fn coordinate_count(model: &Model, start: &State, body: usize) -> usize {
+    Coordinates::at(&model.bodies[body], &start.bodies[model.slots(body).block()]).count()
+}
+
 /// The numbers of bodies at rest.
 fn at_rest(frozen: &FrozenSystem, rests: &[Rest]) -> Vec<f64> {
     rests.iter().enumerate().flat_map(|(body, rest)| frozen.at_rest(body, &rest.block)).collect()
@@ -298,7 +299,7 @@ fn found_modes(model: &Model, start: &State, members: &[usize], rests: &[Rest]) 
     let mut frozen = FrozenSystem::new(model, start, members, follows);
     let numbers = at_rest(&frozen, rests);
     let slopes = frozen.slopes(&numbers).map_err(|_| NoSpectrum)?;
-    let coordinates = SystemCoordinates::at(&frozen, &numbers);
+    let coordinates = SystemCoordinates::at(&mut frozen, &numbers).map_err(|_| NoSpectrum)?;
     let resistance = coordinates.resistance(&slopes);
     let (stiffness, first) = match coordinates.contracts() {
         false => {

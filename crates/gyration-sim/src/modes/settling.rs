@@ -32,7 +32,7 @@ const STILL: f64 = 1e-8;
 pub(super) fn settled(frozen: &mut FrozenSystem, start: Vec<f64>) -> Result<Option<Vec<f64>>, Inadmissible> {
     let (mut numbers, mut last, mut largest) = (start, f64::INFINITY, 0.0);
     for _ in (0..MOST).take_while(|_| Interruption::due().is_none()) {
-        let coordinates = SystemCoordinates::at(frozen, &numbers);
+        let coordinates = SystemCoordinates::at(frozen, &numbers)?;
         let rates = frozen.rates(&numbers)?;
         let force = coordinates.force(&rates);
         let speeds = coordinates.contraction_velocities(frozen, &numbers, &rates);
@@ -68,9 +68,9 @@ pub(super) fn settled(frozen: &mut FrozenSystem, start: Vec<f64>) -> Result<Opti
         let ahead = (0..HALVINGS).find_map(|_| {
             let mut ahead = numbers.clone();
             coordinates.advance(&mut ahead, &(part * &z), &(part * &strains));
-            frozen.project(&mut ahead);
+            let is_held = frozen.project(&mut ahead);
             part *= 0.5;
-            frozen.rates(&ahead).is_ok().then_some(ahead)
+            (is_held && frozen.rates(&ahead).is_ok()).then_some(ahead)
         });
         let Some(ahead) = ahead else { return Ok(None) };
         numbers = ahead;

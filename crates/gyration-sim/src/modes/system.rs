@@ -1,4 +1,6 @@
 //! Coordinates of the small motions of a system: those of its bodies, one after the other, then those of contractions.
+//!
+//! Where joints are, the coordinates are those y that they leave of all z (`tangent`).
 
 use super::contraction::ContractionCoordinates;
 use super::coordinates::Coordinates;
@@ -6,7 +8,9 @@ use super::frozen::FrozenSystem;
 use super::shape::ModeShape;
 use super::slopes::SystemSlopes;
 use super::spectrum::FirstOrder;
+use super::tangent::JointTangent;
 use super::weightless::Inertial;
+use gyration::Inadmissible;
 use gyration::body::{Body, Slots};
 use gyration::lattice::HERE;
 use gyration::tensor::Mat3;
@@ -21,6 +25,8 @@ const IN_STEP: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub(super) struct SystemCoordinates {
     bodies: Vec<BodyCoordinates>,
+    /// What joints leave of z; none without any.
+    tangent: Option<JointTangent>,
 }
 
 /// Those of one body, and where they stand.
@@ -43,7 +49,11 @@ impl BodyCoordinates {
 
 impl SystemCoordinates {
     /// At a configuration.
-    pub fn at(frozen: &FrozenSystem, numbers: &[f64]) -> Self {
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where it is outside the model.
+    pub fn at(frozen: &mut FrozenSystem, numbers: &[f64]) -> Result<Self, Inadmissible> {
+        let equations = frozen.joint_equations(numbers)?;
         let (mut z, mut gamma) = (0, 0);
         let next = |start: &mut usize, count: usize| {
             let range = *start..*start + count;
@@ -59,12 +69,50 @@ impl SystemCoordinates {
             let (z, gamma) = (next(&mut z, moving), next(&mut gamma, contracting));
             BodyCoordinates { places, contraction, slots, z, gamma }
         });
-        Self { bodies: bodies.collect() }
+        let bodies: Vec<BodyCoordinates> = bodies.collect();
+        let places: Vec<_> = bodies.iter().map(|body| (&body.places, body.z.clone())).collect();
+        let tangent = JointTangent::of(&equations, &places);
+        Ok(Self { bodies, tangent })
     }
 
-    /// How many z and γ there are.
+    /// How many free coordinates and γ there are.
     pub fn counts(&self) -> [usize; 2] {
-        self.bodies.last().map_or([0, 0], |last| [last.z.end, last.gamma.end])
+        let contracting = self.bodies.last().map_or(0, |last| last.gamma.end);
+        [self.tangent.as_ref().map_or(self.count(), JointTangent::count), contracting]
+    }
+
+    /// How many z there are.
+    fn count(&self) -> usize {
+        self.bodies.last().map_or(0, |last| last.z.end)
+    }
+
+    /// y of what a motion has within the joints.
+    fn within(&self, z: DVector<f64>) -> DVector<f64> {
+        match &self.tangent {
+            None => z,
+            Some(tangent) => tangent.along(&z),
+        }
+    }
+
+    /// z of y.
+    fn whole(&self, y: &DVector<f64>) -> DVector<f64> {
+        self.tangent.as_ref().map_or_else(|| y.clone(), |tangent| tangent.basis() * y)
+    }
+
+    /// The rows of a matrix along y.
+    fn rows_within(&self, matrix: DMatrix<f64>) -> DMatrix<f64> {
+        match &self.tangent {
+            None => matrix,
+            Some(tangent) => tangent.basis().tr_mul(&matrix),
+        }
+    }
+
+    /// The columns of a matrix along y.
+    fn columns_within(&self, matrix: DMatrix<f64>) -> DMatrix<f64> {
+        match &self.tangent {
+            None => matrix,
+            Some(tangent) => matrix * tangent.basis(),
+        }
     }
 
     /// Those of a body.
@@ -77,13 +125,14 @@ impl SystemCoordinates {
         self.bodies[body].z.clone()
     }
 
-    /// Which z have inertia.
+    /// Which coordinates have inertia: no joint touches a body without.
     pub fn inertial(&self, frozen: &FrozenSystem) -> Inertial {
-        let of = |weightless: bool| {
-            let bodies = (0..self.bodies.len()).filter(move |body| frozen.is_weightless(*body) == weightless);
-            bodies.flat_map(|body| self.range(body)).collect()
-        };
-        Inertial { moving: of(false), weightless: of(true) }
+        let bodies = (0..self.bodies.len()).filter(|body| frozen.is_weightless(*body));
+        let z = bodies.flat_map(|body| self.range(body));
+        let weightless: Vec<usize> =
+            z.filter_map(|z| self.tangent.as_ref().map_or(Some(z), |tangent| tangent.place(z))).collect();
+        let moving = (0..self.counts()[0]).filter(|place| weightless.binary_search(place).is_err()).collect();
+        Inertial { moving, weightless }
     }
 
     /// Whether the contraction of a body moves.
@@ -93,11 +142,14 @@ impl SystemCoordinates {
 
     /// z̈ from the rates of all numbers.
     pub fn force(&self, rates: &[f64]) -> DVector<f64> {
-        let mut force = DVector::zeros(self.counts()[0]);
+        let mut force = DVector::zeros(self.count());
         for body in &self.bodies {
             force.rows_mut(body.z.start, body.z.len()).copy_from(&body.places.force(&rates[body.slots.velocities()]));
         }
-        force
+        match &self.tangent {
+            None => force,
+            Some(tangent) => tangent.basis().tr_mul(&force),
+        }
     }
 
     /// V_G of each body whose contraction moves [1/s].
@@ -126,7 +178,7 @@ impl SystemCoordinates {
         slopes: &SystemSlopes,
         part: impl Fn(&BodyCoordinates, &BodyCoordinates, &DMatrix<f64>) -> DMatrix<f64>,
     ) -> DMatrix<f64> {
-        let mut whole = DMatrix::zeros(self.counts()[0], self.counts()[0]);
+        let mut whole = DMatrix::zeros(self.count(), self.count());
         for ([row, column], _, block) in slopes.iter() {
             let (row, column) = (&self.bodies[row], &self.bodies[column]);
             let mut place = whole.view_mut((row.z.start, column.z.start), (row.z.len(), column.z.len()));
@@ -137,19 +189,24 @@ impl SystemCoordinates {
 
     /// K [1/s²] where no contraction moves.
     pub fn stiffness(&self, slopes: &SystemSlopes) -> DMatrix<f64> {
+        self.rows_within(self.columns_within(self.whole_stiffness(slopes)))
+    }
+
+    /// K along z.
+    fn whole_stiffness(&self, slopes: &SystemSlopes) -> DMatrix<f64> {
         self.assembled(slopes, |row, column, block| row.places.stiffness(&column.places, block))
     }
 
     /// C [1/s].
     pub fn resistance(&self, slopes: &SystemSlopes) -> DMatrix<f64> {
-        self.assembled(slopes, |row, column, block| row.places.resistance(&column.places, block))
+        let whole = self.assembled(slopes, |row, column, block| row.places.resistance(&column.places, block));
+        self.rows_within(self.columns_within(whole))
     }
 
     /// K, and the matrices of the contractions, given V_G of each.
     pub fn first_order(&self, velocities: &[Option<Mat3>], slopes: &SystemSlopes) -> (DMatrix<f64>, FirstOrder) {
-        let mut stiffness = self.stiffness(slopes);
-        let [moving, contracting] = self.counts();
-        let mut first = FirstOrder::zeros(moving, contracting);
+        let mut stiffness = self.whole_stiffness(slopes);
+        let mut first = FirstOrder::zeros(self.count(), self.counts()[1]);
         first.turns =
             self.bodies.iter().flat_map(|body| body.contraction.iter().flat_map(|it| it.turns())).copied().collect();
         for ([i, j], cell, block) in slopes.iter() {
@@ -184,11 +241,15 @@ impl SystemCoordinates {
             let mut place = first.by_rate.view_mut((row.gamma.start, column.z.start), shape);
             place += by_rate;
         }
-        (stiffness, first)
+        let FirstOrder { forces, by_place, by_rate, .. } = &mut first;
+        *forces = self.rows_within(std::mem::take(forces));
+        [by_place, by_rate].into_iter().for_each(|matrix| *matrix = self.columns_within(std::mem::take(matrix)));
+        (self.rows_within(self.columns_within(stiffness)), first)
     }
 
-    /// Moves numbers along z and γ.
-    pub fn advance(&self, numbers: &mut [f64], z: &DVector<f64>, gamma: &DVector<f64>) {
+    /// Moves numbers along its coordinates and γ.
+    pub fn advance(&self, numbers: &mut [f64], along: &DVector<f64>, gamma: &DVector<f64>) {
+        let z = self.whole(along);
         for body in &self.bodies {
             let block = &mut numbers[body.slots.block()];
             let z = z.rows(body.z.start, body.z.len()).into_owned();
@@ -201,21 +262,23 @@ impl SystemCoordinates {
     }
 
     /// Moves the places alone.
-    pub fn advance_places(&self, numbers: &mut [f64], z: &DVector<f64>) {
+    pub fn advance_places(&self, numbers: &mut [f64], along: &DVector<f64>) {
+        let z = self.whole(along);
         for body in &self.bodies {
             body.places.advance(&mut numbers[body.slots.block()], &z.rows(body.z.start, body.z.len()).into_owned());
         }
     }
 
-    /// δp₀ and δP of each body along z.
-    pub fn shapes(&self, frozen: &FrozenSystem, z: &DVector<f64>) -> Vec<ModeShape> {
+    /// δp₀ and δP of each body along the coordinates.
+    pub fn shapes(&self, frozen: &FrozenSystem, along: &DVector<f64>) -> Vec<ModeShape> {
+        let z = self.whole(along);
         let own = |body: &BodyCoordinates| z.rows(body.z.start, body.z.len()).into_owned();
         let shape = |(body, at): (&Arc<Body>, &BodyCoordinates)| at.places.shape(body, &own(at));
         frozen.bodies().iter().zip(&self.bodies).map(shape).collect()
     }
 
-    /// The shapes along z, scaled by the fastest point of all bodies, with the leading entry of the body that it is of
-    /// positive, and the part in quadrature if there is one.
+    /// The shapes along the coordinates, scaled by the fastest point of all bodies, with the leading entry of the body
+    /// that it is of positive, and the part in quadrature if there is one.
     pub fn scaled_shapes(
         &self,
         frozen: &FrozenSystem,
@@ -238,9 +301,10 @@ impl SystemCoordinates {
         (scaled(shapes), quadrature)
     }
 
-    /// Motions that have a name, as unit vectors of z: of all bodies together, as those of one body, then of each.
+    /// Motions that have a name, as unit vectors of z within the joints: of all bodies together, as those of one body,
+    /// then of each.
     pub fn patterns(&self, frozen: &FrozenSystem, numbers: &[f64]) -> Vec<DVector<f64>> {
-        let count = self.counts()[0];
+        let count = self.count();
         let mut own = Vec::new();
         for (index, at) in self.bodies.iter().enumerate() {
             let gradient = frozen.motion(numbers, index).placement.gradient;
@@ -249,7 +313,7 @@ impl SystemCoordinates {
         let placed = |body: usize, pattern: &DVector<f64>| {
             let mut whole = DVector::zeros(count);
             whole.rows_mut(self.bodies[body].z.start, pattern.len()).copy_from(pattern);
-            whole
+            self.within(whole)
         };
         let each = own.iter().enumerate().flat_map(|(body, own)| own.iter().map(move |pattern| placed(body, pattern)));
         let mut patterns = if self.bodies.len() > 1 { self.translations(frozen) } else { Vec::new() };
@@ -264,7 +328,7 @@ impl SystemCoordinates {
         frozen: &FrozenSystem,
         motion: impl Fn(usize) -> (gyration::tensor::Vec3, Mat3),
     ) -> DVector<f64> {
-        let mut whole = DVector::zeros(self.counts()[0]);
+        let mut whole = DVector::zeros(self.count());
         for (index, (body, at)) in frozen.bodies().iter().zip(&self.bodies).enumerate() {
             let (translation, change) = motion(index);
             let own = at.places.moved(body, &translation, &change);
@@ -273,16 +337,16 @@ impl SystemCoordinates {
         whole
     }
 
-    /// Translations of all bodies along the axes, as unit vectors of z.
+    /// Translations of all bodies along the axes, as unit vectors of z within the joints.
     pub fn translations(&self, frozen: &FrozenSystem) -> Vec<DVector<f64>> {
         let along = |axis: usize| {
-            let mut whole = DVector::zeros(self.counts()[0]);
+            let mut whole = DVector::zeros(self.count());
             for (body, at) in frozen.bodies().iter().zip(&self.bodies) {
                 let own = at.places.translation(body, axis);
                 whole.rows_mut(at.z.start, at.z.len()).copy_from(&own);
             }
             let norm = whole.norm();
-            if norm > 0.0 { whole / norm } else { whole }
+            self.within(if norm > 0.0 { whole / norm } else { whole })
         };
         (0..3).map(along).collect()
     }

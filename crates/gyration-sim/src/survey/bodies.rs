@@ -1,5 +1,6 @@
 //! What the survey says of each body: beside every support, and where it rests.
 
+use super::joints::{JointSurvey, LinkageSurvey};
 use super::kind::KindSurvey;
 use super::laws::LawSurvey;
 use super::mass::MassSurvey;
@@ -7,6 +8,7 @@ use super::meetings::MeetingSurvey;
 use super::modes::{RestState, SystemRestState};
 use super::rest::{Approach, RestGap};
 use super::springs::SpringSurvey;
+use super::supports::SupportSurvey;
 use crate::resistance::completed;
 use crate::survey::remarks::Remarks;
 use gyration::body::Body;
@@ -25,6 +27,15 @@ use std::sync::Arc;
 pub struct Survey {
     /// The bodies, in order.
     pub bodies: Vec<BodySurvey>,
+    /// The supports, planes first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub supports: Vec<SupportSurvey>,
+    /// The joints, in order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub joints: Vec<JointSurvey>,
+    /// The bodies that joints join, and how many freedoms are left to them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub linkages: Vec<LinkageSurvey>,
     /// The springs between bodies, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub springs: Vec<SpringSurvey>,
@@ -82,7 +93,7 @@ pub struct PairSurvey {
 pub struct SceneModes {
     /// Those of bodies on which no other acts; of the others what they are.
     pub bodies: Vec<BodyModes>,
-    /// Those of bodies that springs or contacts join.
+    /// Those of bodies that springs, bonds, joints or contacts join.
     pub systems: Vec<SystemModes>,
 }
 
@@ -151,8 +162,8 @@ pub fn modes(scene: &Scene) -> SceneModes {
 /// The matrices of a search have the square of the number of coordinates, and it solves with them some hundred times.
 const MOST_MEMBERS: usize = 100;
 
-/// The sets of bodies that springs, bonds or contacts join, each ascending; in a lattice one may be joined to its own
-/// images alone.
+/// The sets of bodies that springs, bonds, joints or contacts join, each ascending; in a lattice one may be joined to
+/// its own images alone.
 fn systems(model: &Model) -> Vec<Vec<usize>> {
     let acting = |pair: &[usize; 2]| pair.iter().all(|body| model.is_joined(*body));
     let joined = Components::joined(model.bodies.len(), model.chain().filter(acting));
@@ -191,6 +202,9 @@ impl Survey {
         let bodies = (0..model.bodies.len()).map(|index| survey_body(model, start, index)).collect();
         Ok(Self {
             bodies,
+            supports: SupportSurvey::all(model),
+            joints: JointSurvey::all(model, start),
+            linkages: LinkageSurvey::all(model, start),
             springs: SpringSurvey::all(model, start),
             meetings: MeetingSurvey::all(model, start),
             pairs: model.count_pairs(),

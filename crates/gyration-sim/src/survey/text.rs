@@ -2,8 +2,10 @@
 
 use super::bodies::Survey;
 use super::crowd::{MOST_BODIES, sorts, write_crowd};
+use super::joints::write_joints;
 use super::meetings::write_meetings;
 use super::springs::write_springs;
+use super::supports::write_supports;
 use super::words::write_body;
 use crate::format::vector;
 use gyration_scene::units::shown;
@@ -44,15 +46,8 @@ fn in_words(scene: &Scene, survey: &Survey) -> String {
         let _ = writeln!(text, "           ends early if slower than {speed} m/s for {hold} s");
     }
     let _ = writeln!(text, "solver     rtol {:e}, atol {:e}", plan.rtol, plan.atol);
-    for support in built.model.supports.iter() {
-        let (origin, normal) = (vector(&support.origin.into()), vector(&support.normal.into()));
-        let _ = writeln!(text, "support    {}: plane through {origin} m, normal {normal}", support.name);
-    }
-    for support in built.model.solid_supports.iter() {
-        let place = vector(&support.start.position.into());
-        let moves = if support.motion.is_fixed() { "fixed" } else { "moves as prescribed" };
-        let _ = writeln!(text, "support    {}: a solid about {place} m, {moves}", support.name);
-    }
+    write_supports(&mut text, &survey.supports);
+    write_joints(&mut text, &survey.joints, &survey.linkages);
     write_springs(&mut text, &survey.springs);
     write_meetings(&mut text, &survey.meetings, survey.pairs[0], survey.pairs[1]);
     for note in &survey.remarks.notes {

@@ -33,7 +33,7 @@ pub use contacts::{gap_to_supports, nearest};
 pub use exchanges::{Exchange, ExchangeKind, exchanges};
 pub use gaps::gap_at;
 pub use jacobian::{Blocks, Coupling, Lift, Lower};
-pub use joints::{DependentJoint, Held, JointMisfit, JointObservation, observe_joint};
+pub use joints::{DependentJoint, Held, JointEquation, JointMisfit, JointObservation, observe_joint};
 pub use loads::{Acting, acting, stored_energy};
 pub use pushes::{Push, each_push};
 pub use rates::{jacobian, rates};

@@ -158,7 +158,7 @@ impl LatticeWaves {
         };
         let lattice = Lattice::clone(&model.lattice);
         let rates = frozen.rates(&numbers).map_err(NoRest::from)?;
-        let coordinates = SystemCoordinates::at(&frozen, &numbers);
+        let coordinates = SystemCoordinates::at(&mut frozen, &numbers).map_err(NoRest::from)?;
         let system = BlochSystem::at(&mut frozen, &coordinates, &lattice, (&numbers, &rates)).map_err(NoRest::from)?;
         let left = members.iter().flat_map(|body| {
             let (slots, size) = (frozen.slots(*body), frozen.bodies()[*body].size);

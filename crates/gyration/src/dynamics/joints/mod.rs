@@ -14,24 +14,27 @@
 //! | `hold`    | puts places and velocities back to C = 0, Ċ = 0               |
 //! | `rank`    | equations that follow from others                             |
 //! | `observe` | what is recorded of a joint                                   |
+//! | `tangent` | the velocities that the joints of a configuration leave       |
 
 mod hold;
 mod member;
 mod observe;
 mod rank;
 mod slopes;
+mod tangent;
 
 pub use hold::{Held, JointMisfit};
 pub use observe::{JointObservation, observe_joint};
 pub use rank::DependentJoint;
 pub(super) use slopes::add_jacobian;
+pub use tangent::JointEquation;
 
 use super::Scratch;
 use super::body_rates::body_rates;
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::instant::{Instant, MotionAt, second};
 use crate::joint::{Jet, Joint, JointGraph};
-use crate::load::Interaction;
+use crate::load::{Interaction, Party};
 use crate::model::Model;
 use gyration_blocks::{BlockLu, BlockMatrix, Real};
 use member::Member;
@@ -168,8 +171,7 @@ impl JointEquations {
                 }
             }
         }
-        let body = graph.bodies[0];
-        factors.factorize(&graph.analysis, 0.0, matrix).map_err(|_| singular(model, body))
+        factors.factorize(&graph.analysis, 0.0, matrix).map_err(|_| self.singular(model))
     }
 
     /// Fills the right-hand side, equation by equation.
@@ -213,10 +215,10 @@ impl JointEquations {
             self.members[place].accelerate_by(&change);
         }
     }
-}
-
-/// Equations of joints have become dependent.
-fn singular(model: &Model, body: usize) -> Inadmissible {
-    let body = model.joints().first().and_then(Joint::bodies).map_or(body, |bodies| bodies[0]);
-    Inadmissible { body, quantity: Quantity::Joints, value: 0.0 }
+    /// Equations of joints have become dependent.
+    fn singular(&self, model: &Model) -> Inadmissible {
+        let joint = self.least_independent();
+        let body = model.joints()[joint].parties().into_iter().find_map(Party::body).unwrap_or(0);
+        Inadmissible { body, quantity: Quantity::Joints { joint }, value: 0.0 }
+    }
 }

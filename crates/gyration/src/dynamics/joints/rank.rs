@@ -1,11 +1,12 @@
 //! Equations of joints that follow from others: the pivots of the symmetric elimination of G A B Gᵀ, joint by joint.
 
 use super::super::Workspace;
-use super::JointEquations;
+use super::{JointEquations, Room};
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
 use crate::state::State;
 use nalgebra::DMatrix;
+use std::ops::Range;
 
 /// A pivot below this part of its diagonal entry is rounding: its equation follows from those before it.
 const DEPENDENT: f64 = 1e-10;
@@ -38,6 +39,25 @@ impl Workspace {
 impl JointEquations {
     fn dependent(&self) -> Option<DependentJoint> {
         let graph = &self.room.as_ref()?.graph;
+        let pivots = self.relative_pivots();
+        let depends = |range: &Range<usize>| pivots[range.clone()].iter().filter(|pivot| **pivot <= DEPENDENT).count();
+        let mut found = graph.ranges.iter().map(depends).enumerate();
+        let (joint, dependent) = found.find(|(_, dependent)| *dependent > 0)?;
+        Some(DependentJoint { joint, dependent })
+    }
+
+    /// The joint whose equations are nearest to dependence on those before them; the first of several.
+    pub(super) fn least_independent(&self) -> usize {
+        let Some(Room { graph, .. }) = &self.room else { return 0 };
+        let pivots = self.relative_pivots();
+        let least = pivots.iter().copied().fold(f64::INFINITY, f64::min);
+        let at = pivots.iter().position(|pivot| *pivot <= least).unwrap_or(0);
+        graph.ranges.iter().position(|range| range.contains(&at)).unwrap_or(0)
+    }
+
+    /// The pivot of each equation over its diagonal entry: about zero where it follows from those before it.
+    fn relative_pivots(&self) -> Vec<f64> {
+        let Some(Room { graph, .. }) = &self.room else { return Vec::new() };
         let count = graph.equations();
         let mut matrix = DMatrix::<f64>::zeros(count, count);
         for own in &graph.joints_of {
@@ -49,25 +69,21 @@ impl JointEquations {
             }
         }
         let diagonal: Vec<f64> = (0..count).map(|k| matrix[(k, k)]).collect();
-        let mut found: Option<DependentJoint> = None;
-        for (joint, range) in graph.ranges.iter().enumerate() {
-            for k in range.clone() {
-                let pivot = matrix[(k, k)];
-                if pivot > DEPENDENT * diagonal[k] {
-                    for i in k + 1..count {
-                        let factor = matrix[(i, k)] / pivot;
-                        if factor != 0.0 {
-                            (k..count).for_each(|j| matrix[(i, j)] -= factor * matrix[(k, j)]);
-                        }
+        let mut pivots = Vec::with_capacity(count);
+        for k in 0..count {
+            let pivot = matrix[(k, k)];
+            // An equation of nothing that moves has the diagonal zero.
+            let relative = if diagonal[k] > 0.0 { pivot / diagonal[k] } else { 0.0 };
+            pivots.push(relative);
+            if relative > DEPENDENT {
+                for i in k + 1..count {
+                    let factor = matrix[(i, k)] / pivot;
+                    if factor != 0.0 {
+                        (k..count).for_each(|j| matrix[(i, j)] -= factor * matrix[(k, j)]);
                     }
-                } else {
-                    found.get_or_insert(DependentJoint { joint, dependent: 0 }).dependent += 1;
                 }
             }
-            if found.is_some() {
-                return found;
-            }
         }
-        None
+        pivots
     }
 }
