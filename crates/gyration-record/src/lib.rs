@@ -23,6 +23,7 @@ mod checkpoint;
 mod chunks;
 mod disk;
 mod error;
+mod event;
 pub mod export;
 mod file;
 mod layout;
@@ -39,10 +40,11 @@ mod crash_tests;
 pub use array::ArrayInfo;
 pub use disk::remove;
 pub use error::RecordError;
+pub use event::Event;
 pub use file::{cannot_write, replace_file, write_file};
 pub use layout::{ArraySpec, Dimension, FixedArray, Layout, Ragged, RaggedArray, chunk_rows_for};
 pub use recording::{Array, Recording};
-pub use writer::{Event, Resumed, Writer};
+pub use writer::{Resumed, Writer};
 
 /// Attributes of a recording: what JSON can hold.
 pub type Attributes = serde_json::Map<String, serde_json::Value>;

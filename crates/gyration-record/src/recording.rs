@@ -9,9 +9,9 @@ use crate::checkpoint::Checkpoint;
 use crate::chunks::{LastChunks, read_labels};
 use crate::disk;
 use crate::error::RecordError;
+use crate::event::Event;
 use crate::layout::START;
 use crate::metadata::Group;
-use crate::writer::Event;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 

@@ -15,6 +15,7 @@ use crate::checkpoint::Checkpoint;
 use crate::chunks;
 use crate::disk::{self, CHECKPOINT, Disk, METADATA, STATE};
 use crate::error::RecordError;
+use crate::event::Event;
 use crate::layout::{BOUNDARY, ENTRY, Layout, START};
 use crate::metadata::Group;
 use crate::recording::Recording;
@@ -22,17 +23,6 @@ use crate::stream::Stream;
 use crate::zarr;
 use std::fs::File;
 use std::path::{Path, PathBuf};
-
-/// Something that happened between two samples.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Event {
-    /// When, in s.
-    pub time: f64,
-    /// What: an index into [`Layout::event_kinds`].
-    pub kind: usize,
-    /// The index of the body concerned, if one is.
-    pub body: Option<usize>,
-}
 
 /// The one writer of a recording.
 #[derive(Debug)]

@@ -10,6 +10,7 @@ mod constraint;
 mod contact;
 mod context;
 mod contractile;
+mod convex;
 mod fluid;
 mod guide;
 mod images;

@@ -1,6 +1,7 @@
 //! Bodies that meet: what acts between any two, and whether they are apart at the start.
 
 use super::body::AssembledBody;
+use super::convex::convex_help;
 use super::partners::without_surface;
 use super::reach;
 use super::start::placement;
@@ -13,7 +14,6 @@ use gyration::contact::{AreaMeasure, ContactLaw, LawKind};
 use gyration::kinematics::Placement;
 use gyration::neighbours::{BodyPair, PairRule, PairRules, Sphere, each_near};
 use gyration::pair::{Mass, Overlap, PairLaws, PairLawsError, Reach};
-use gyration::shape::NotConvex;
 use gyration::tensor::Vec3;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -216,17 +216,6 @@ pub(super) fn can_meet(assembled: &AssembledBody, key: &Key, reporter: &mut Repo
         return false;
     }
     true
-}
-
-/// How to make convex parts of what has none.
-pub(super) fn convex_help(why: NotConvex) -> &'static str {
-    match why {
-        NotConvex::Ring => "make it a union of capsules around the ring: a plane stands between convex bodies",
-        NotConvex::Dent { .. } | NotConvex::Pieces => {
-            "make it a union of convex meshes, each in a file of its own, as CoACD or V-HACD cut it: a plane stands \
-             between convex bodies"
-        }
-    }
 }
 
 /// Notes two bodies that overlap.

@@ -1,7 +1,7 @@
 //! Supports: planes with unit normals, solids, and their motions.
 
+use super::convex::convex_help;
 use super::orientation::orientation;
-use super::pair::convex_help;
 use super::shape::ShapeBuilder;
 use crate::check::{PartialScene, Placed, Reporter, direction};
 use crate::file::{Motion, OneOrMany, Support};
