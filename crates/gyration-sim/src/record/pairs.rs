@@ -105,11 +105,14 @@ pub fn pairs_csv(recording: &Recording, out: &mut impl Write) -> Result<(), Reco
     writeln!(out, "{HEADER}").map_err(failed())?;
     for rows in recording.chunks() {
         let times = recording.read_rows("time", rows.clone())?.data;
-        for (row, time) in rows.zip(times) {
-            let entries = recording.entries(row)?;
-            let arrays = ARRAYS.map(|(name, ..)| recording.read_rows(&format!("{GROUP}/{name}"), entries.clone()));
-            let arrays = arrays.into_iter().collect::<Result<Vec<Array>, _>>()?;
-            for entry in 0..entries.len() {
+        let entries = rows.map(|row| recording.entries(row)).collect::<Result<Vec<_>, _>>()?;
+        let Some((first, last)) = entries.first().zip(entries.last()) else { continue };
+        // Whole chunks at once: each read decodes those that it touches.
+        let start = first.start;
+        let all = ARRAYS.map(|(name, ..)| recording.read_rows(&format!("{GROUP}/{name}"), start..last.end));
+        let arrays = all.into_iter().collect::<Result<Vec<Array>, _>>()?;
+        for (entries, time) in entries.into_iter().zip(times) {
+            for entry in entries.start - start..entries.end - start {
                 write!(out, "{time:.16e}").map_err(failed())?;
                 for (array, (name, ..)) in arrays.iter().zip(ARRAYS) {
                     let width = array.shape.iter().skip(1).product::<usize>();
