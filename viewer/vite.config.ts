@@ -60,6 +60,8 @@ export default defineConfig({
           testTimeout: 120_000,
           hookTimeout: 300_000,
           fileParallelism: false,
+          // What a page comes to is waited for as long on a machine that does other work as on one that does none.
+          expect: { poll: { timeout: 60_000 } },
         },
       },
     ],

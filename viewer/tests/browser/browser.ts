@@ -57,6 +57,7 @@ export async function opened(
 ): Promise<Opened> {
   const url = where.startsWith("http") ? where : `file://${where}`;
   const context = await (await on).newContext(options);
+  context.setDefaultTimeout(60_000);
   const page = await context.newPage();
   await before?.(page);
   const problems: string[] = [];

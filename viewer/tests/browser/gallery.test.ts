@@ -1,4 +1,4 @@
-// Every scene of the gallery: its report opens, draws, moves, and asks for nothing from anywhere.
+// The gallery, one scene of each thing that is drawn: its report opens, draws, moves, and asks for nothing from anywhere.
 
 import { statSync } from "node:fs";
 import { describe, expect, it } from "vitest";
@@ -11,13 +11,43 @@ const WINDOW = { viewport: { width: 640, height: 400 } };
 /** Scenes that begin slowly: the force of this one grows until nine sixteenths of its time. */
 const SLOW = new Set(["wave-gap"]);
 
+/** Bodies of one shape each, soft, pinned, self-driven, in a fluid; supports that turn; joints, springs, lattices. */
+const DRAWN = [
+  "dice",
+  "rattleback",
+  "tippe-top",
+  "euler-disk",
+  "top",
+  "shaker",
+  "soft-collision",
+  "spin-flatten",
+  "crawl",
+  "breathe",
+  "jeffery",
+  "swimmer",
+  "bricks",
+  "drum",
+  "turntable",
+  "stair",
+  "linkage",
+  "gripper",
+  "adhesive-cluster",
+  "kagome",
+  "gyroscopes",
+  "wave-gap",
+];
+
 /** A tenth of a scene is enough to see it move. */
 function beginning(scene: string, end: number): number {
   return SLOW.has(scene) ? 0.6 * end : Math.min(end, Math.max(0.3, 0.1 * end));
 }
 
-describe("the report of every gallery scene", () => {
-  it.each(gallery())("%s_renders_and_moves", async (scene, end) => {
+const scenes = gallery().filter(([scene]) => DRAWN.includes(scene));
+
+describe("the report of a gallery scene", () => {
+  it("is_tried_for_each_thing_that_is_drawn", () => expect(scenes.length).toBe(DRAWN.length));
+
+  it.each(scenes)("%s_renders_and_moves", async (scene, end) => {
     const file = reported(recorded(scene, `time.end=${beginning(scene, end)}`));
     expect(statSync(file).size).toBeLessThan(3e6);
     // The start of the browser itself does not count.

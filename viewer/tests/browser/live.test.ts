@@ -13,10 +13,8 @@ describe("a live view", () => {
   it("streams_the_run_to_its_end_and_plays_it", async () => {
     const server = await served("dice", "--set", "time.end=0.4");
     const { page, problems, close } = await opened(server.url);
-    await expect.poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 }).toBe(81);
-    await expect
-      .poll(() => page.evaluate(() => window.gyration.time), { timeout: 60_000 })
-      .toBeGreaterThan(0.05);
+    await expect.poll(() => page.evaluate(() => window.gyration.rows)).toBe(81);
+    await expect.poll(() => page.evaluate(() => window.gyration.time)).toBeGreaterThan(0.05);
     await page.getByRole("tab", { name: "Sliders" }).click();
     await expect.poll(() => page.locator(".run-text").textContent()).toContain("reached its end");
     expect(problems).toEqual([]);
@@ -35,7 +33,7 @@ describe("a live view", () => {
     await expect
       .poll(() => page.locator("#panel-scene").textContent())
       .toContain("body.die.velocity=[1.2, 0, 0]");
-    await expect.poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 }).toBe(61);
+    await expect.poll(() => page.evaluate(() => window.gyration.rows)).toBe(61);
     expect(problems).toEqual([]);
     await close();
     await server.stop();
@@ -44,12 +42,12 @@ describe("a live view", () => {
   it("replays_from_the_start_when_a_number_changes_after_the_run_has_ended", async () => {
     const server = await served("dice", "--set", "time.end=0.1");
     const { page, problems, close } = await opened(server.url);
-    await expect.poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 }).toBe(21);
+    await expect.poll(() => page.evaluate(() => window.gyration.rows)).toBe(21);
     await page.getByRole("tab", { name: "Sliders" }).click();
     await expect.poll(() => page.locator(".run-text").textContent()).toContain("reached its end");
     // Played to its end, which is the end of the playback too.
     await page.keyboard.press("l");
-    await page.getByRole("button", { name: "Play (space)" }).waitFor({ timeout: 60_000 });
+    await page.getByRole("button", { name: "Play (space)" }).waitFor();
     expect(await page.evaluate(() => window.gyration.time)).toBeCloseTo(0.1, 9);
     const entry = page.getByRole("textbox", { name: "body.die.density, exact" });
     await entry.fill("2000");
@@ -64,9 +62,7 @@ describe("a live view", () => {
   it("marks_a_number_that_is_refused_and_goes_on_with_all_others", async () => {
     const server = await served("shaker", "--set", "time.end=600");
     const { page, problems, close } = await opened(server.url);
-    await expect
-      .poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 })
-      .toBeGreaterThan(5);
+    await expect.poll(() => page.evaluate(() => window.gyration.rows)).toBeGreaterThan(5);
     await page.getByRole("tab", { name: "Sliders" }).click();
     const search = page.getByRole("searchbox");
     await search.fill("density");
@@ -86,9 +82,7 @@ describe("a live view", () => {
     const end = page.getByRole("textbox", { name: "time.end, exact" });
     await end.fill("0.1");
     await end.press("Enter");
-    await expect
-      .poll(() => page.locator(".run-text").textContent(), { timeout: 60_000 })
-      .toContain("reached its end");
+    await expect.poll(() => page.locator(".run-text").textContent()).toContain("reached its end");
     await search.fill("density");
     expect(await row.locator(".reason").count()).toBe(1);
     await density.fill("2000");
@@ -138,9 +132,7 @@ describe("a live view", () => {
     const server = await served("dice", "--set", "time.end=1000");
     const { page, close } = await opened(server.url);
     await page.getByRole("tab", { name: "Sliders" }).click();
-    await expect
-      .poll(() => page.locator(".run-text").textContent(), { timeout: 60_000 })
-      .toMatch(/came to rest/i);
+    await expect.poll(() => page.locator(".run-text").textContent()).toMatch(/came to rest/i);
     const speed = Number(await page.getByRole("combobox", { name: "speed" }).inputValue());
     const { lasts } = await page.evaluate(() => ({
       lasts: Number(document.querySelector<HTMLInputElement>(".scrubber")!.max),
@@ -172,7 +164,7 @@ describe("a live view", () => {
   it("misses_a_server_that_is_gone_and_takes_no_other_in_its_place", async () => {
     const first = await served("dice", "--set", "time.end=0.2");
     const { page, problems, close } = await opened(first.url);
-    await expect.poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 }).toBe(41);
+    await expect.poll(() => page.evaluate(() => window.gyration.rows)).toBe(41);
     await first.stop();
     const banner = page.locator(".banner.lost");
     await banner.waitFor();
@@ -202,13 +194,13 @@ describe("a live view", () => {
           cut = () => socket.close();
         }),
     });
-    await expect.poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 }).toBe(41);
+    await expect.poll(() => page.evaluate(() => window.gyration.rows)).toBe(41);
     await cut();
     const banner = page.locator(".banner.lost");
     await banner.waitFor();
     await page.getByRole("button", { name: "Reconnect" }).click();
     await banner.waitFor({ state: "detached" });
-    await expect.poll(() => page.evaluate(() => window.gyration.rows), { timeout: 60_000 }).toBe(41);
+    await expect.poll(() => page.evaluate(() => window.gyration.rows)).toBe(41);
     expect(ofThePage(problems)).toEqual([]);
     await close();
     await server.stop();
