@@ -1,5 +1,5 @@
 //! The gallery of bodies that drive themselves: `contract-1` to `-3`, `hop`, `crawl`, `scallop`, `roll-over`,
-//! `breathe`.
+//! `climber`, `breathe`.
 //!
 //!   crawling   friction and repulsion of one exponent: ẋ = (h/2)(Ṗ_xz − P_xz Ṗ_xx/P_xx), Δx = −(h/2) ∮ P_xz d(ln P_xx)
 //!   rolling    a shape that stays in space while the ball turns through it at Ω/2: v = (Ω/2) R λ, λ its horizontal stretch
@@ -132,6 +132,25 @@ fn ball_rolls_under_its_own_wave() {
     let stretch = p_xx.hypot(p_xz);
     // A contact of finite width slips a little, and the axis is not quite level.
     case("gallery: roll-over", "v = (Ω/2) R λ").check("speed [m/s]", 0.5 * TAU * 0.1 * stretch, speed, 0.02);
+}
+
+#[test]
+fn ball_climbs_a_step_and_comes_down_again() {
+    let experiment = Experiment::of_gallery("climber", &[]);
+    let run = experiment.run();
+    ledger_is_sound(&run);
+    let flat = Experiment::of_gallery("roll-over", &["time.end=5"]).run();
+    // Half a second is one turn of the wave.
+    let height = |run: &Run, end: usize| run.column("ball.z")[end - 50..end].iter().sum::<f64>() / 50.0;
+    let gained = |end: usize| height(&run, end) - height(&flat, end);
+    let climbing = case("gallery: climber", "the height of the step; its speed there is not quite that on the table");
+    climbing.check("height gained on the step [m]", 0.01, gained(400), 0.1);
+    assert!(gained(500).abs() < 5e-4 && run.column("ball.x")[500] > 1.4, "it has come down behind the step");
+    let work = |run: &Run| run.column("work.drive")[500];
+    assert!(work(&run) > 4.0 * work(&flat), "{} and {} J", work(&run), work(&flat));
+    let [height, centre] = ["support.step.shape.box.size.2=0.02", "support.step.position.2=0.01"];
+    let higher = Experiment::of_gallery("climber", &[height, centre, "time.end=3"]).run();
+    assert!(higher.column("ball.x").iter().all(|x| *x < 0.35), "a step of 2 cm is too high");
 }
 
 /// (g, ġ, t) of the gallery's ball: j/V = ρR²/5.

@@ -1,5 +1,6 @@
-//! The gallery's `bricks`, `wedge` and `billiard`: what stays, what momentum does, what friction takes.
+//! The gallery's `stack`, `bricks`, `wedge` and `billiard`: what stays, what momentum does, what friction takes.
 
+use gyration_sim::Outcome;
 use gyration_validation::{Case, Experiment, Run, largest};
 
 const GRAVITY: f64 = 9.81;
@@ -33,6 +34,38 @@ fn a_ball_knocks_a_brick_out_of_a_wall() {
     let end = smooth.times.len() - 1;
     case.check("momentum along the floor [kg m/s]", momentum(&smooth, 0), momentum(&smooth, end), 1e-12);
     assert!(smooth.column("brick-7.vy")[end] > 0.5, "the ball has hit");
+}
+
+/// The scene `stack` with the uppermost `bricks`, each beyond the one below by `share` of L/2k.
+fn stack(share: f64, bricks: usize) -> String {
+    let text = gyration_scene::gallery_scene("stack").expect("a scene of the gallery");
+    let laws = text.split("\n[[body]]").next().expect("the laws");
+    let bodies = (0..bricks).map(|below| {
+        let place: f64 = (1..=below).map(|below| share * 0.05 / (bricks - below) as f64).sum();
+        let height = 0.0151 + 0.030085 * below as f64;
+        format!(
+            "\n[[body]]\nname = \"brick-{below}\"\ngroup = \"brick\"\ndensity = 1250\n\
+            shape = {{ box = {{ size = [0.1, 0.05, 0.03] }} }}\nposition = [{place}, 0, {height}]\n"
+        )
+    });
+    format!("{laws}{}\n[solver]\nrtol = 1e-6\n", bodies.collect::<String>())
+}
+
+#[test]
+fn a_stack_stands_within_the_harmonic_overhang_less_what_gaps_give() {
+    let lean = |share: f64, bricks: usize| {
+        let experiment = Experiment::of_scene(&stack(share, bricks));
+        let run = experiment.attempt();
+        assert!(!matches!(run.outcome, Outcome::Stopped(_)), "{}", run.outcome.in_words());
+        let sine = run.end.motion(&experiment.model, bricks - 1).placement.gradient[(2, 0)].abs();
+        println!("{bricks} bricks at {share} of the overhang: the uppermost leans by a sine of {sine:.5}");
+        sine
+    };
+    assert!(lean(0.9, 5) < 0.03);
+    assert!(lean(0.97, 5) > 0.1);
+    // √(4 h d/(ν − 2)) is 0.018 of L/2 with h = 15 mm and d = 0.06 mm.
+    assert!(lean(0.97, 2) < 0.03);
+    assert!(lean(0.99, 2) > 0.1);
 }
 
 #[test]
