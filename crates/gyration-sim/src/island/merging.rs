@@ -7,11 +7,13 @@
 
 use crate::in_play::InPlay;
 use crate::island::approach::{Approach, may_meet};
-use crate::island::path_bound::{NODES, PathBound};
+use crate::island::path_bound::{NODES, Node, PathBound};
 use crate::island::paths::Paths;
 use crate::island::{Island, Setting};
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
+use gyration::body::BodyKind;
+use gyration::kinematics::Quaternion;
 use gyration::neighbours::BodyPair;
 use gyration::pair::EDGE;
 use gyration::tensor::Vec3;
@@ -27,14 +29,20 @@ impl Island {
         let Self { integrator, system, sampled, paths, .. } = self;
         let Some(paths) = paths else { return };
         let model = system.model();
-        let mut centers = vec![[Vec3::zeros(); NODES]; model.bodies.len()];
+        let origin = Node { center: Vec3::zeros(), quaternion: Quaternion::IDENTITY };
+        let mut nodes = vec![[origin; NODES]; model.bodies.len()];
         for (k, time) in PathBound::nodes(report.start, report.end).into_iter().enumerate() {
             integrator.interpolate(time, &mut sampled.bodies, &mut sampled.works);
-            for (body, centers) in centers.iter_mut().enumerate() {
-                centers[k] = sampled.motion(model, body).placement.position;
+            for (body, nodes) in nodes.iter_mut().enumerate() {
+                nodes[k].center = sampled.motion(model, body).placement.position;
+                if let (BodyKind::Rigid(_), attitude) = (&model.bodies[body].kind, model.slots(body).attitude())
+                    && !attitude.is_empty()
+                {
+                    nodes[k].quaternion = Quaternion::read(&sampled.bodies[attitude]);
+                }
             }
         }
-        paths.push(centers.iter().map(|centers| PathBound::through((report.start, report.end), centers)));
+        paths.push(nodes.iter().map(|nodes| PathBound::through((report.start, report.end), nodes)));
     }
 
     /// Notes whether some of its bodies are out of reach of the others, and stay so.
@@ -50,6 +58,11 @@ impl Island {
         let stays = |pair: &BodyPair| {
             let [one, other] = pair.bodies.map(|body| &self.step_ends[body]);
             model.cutoff(pair).is_some_and(|cutoff| Approach::of(one, other).least(ahead) <= (1.0 + EDGE) * cutoff)
+                && !model.reach(pair).is_some_and(|reach| {
+                    let solids = pair.bodies.map(|body| &*model.bodies[body].solid);
+                    let [one, other] = [one, other].map(|end| PathBound::ahead(end, ahead));
+                    one.stay_apart(&other, (1.0 + EDGE) * reach, solids)
+                })
         };
         let near = may_meet(model, &self.step_ends, ahead);
         let joined = near.iter().filter(|pair| stays(pair)).map(|pair| pair.bodies).chain(model.endless_chain());

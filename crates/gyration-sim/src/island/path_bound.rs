@@ -5,9 +5,20 @@
 //! b_j are the Bernstein coefficients of the interpolant, a polynomial of degree 8 at most, and t_j their places: a
 //! polynomial stays within the hull of its coefficients, and so does its distance from the chord. Two bodies whose
 //! chords stay farther apart than their reach and both δ have not met, whatever they did in between.
+//!
+//! Long bodies beside one another have spheres about them that overlap. They have not met either if their shapes stay
+//! apart along a normal n, be it an axis of one of them or the line of their centres:
+//!
+//!   n·(c_B − c_A) − h_A(P_Aᵀ n) − h_B(−P_Bᵀ n) − δ_A − δ_B − σ_A − σ_B > reach,   σ = 2 r ε/|q|
+//!
+//! h is the support function, P the orientation in the middle of the step, with the quaternion q, ε a bound like δ on
+//! how far the quaternion comes from q, and σ so one on how far a point within the radius r is moved by that.
 
+use crate::island::step_end::StepEnd;
+use gyration::body::Solid;
+use gyration::kinematics::Quaternion;
 use gyration::neighbours::Bounds;
-use gyration::tensor::Vec3;
+use gyration::tensor::{Mat3, Vec3};
 use nalgebra::{SMatrix, SVector};
 use std::sync::LazyLock;
 
@@ -16,7 +27,16 @@ const DEGREE: usize = 8;
 /// Into how many equal parts a step is cut by the places through which a bound is laid, and one more.
 pub(crate) const NODES: usize = DEGREE + 1;
 
-/// Where the centre of a body is for all times of a step.
+/// Where a rigid body is at one time of a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Node {
+    /// The centre of mass [m].
+    pub center: Vec3,
+    /// Not normalised.
+    pub quaternion: Quaternion,
+}
+
+/// Where a rigid body is for all times of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PathBound {
     /// The ends of the step [s].
@@ -27,6 +47,10 @@ pub(crate) struct PathBound {
     to: Vec3,
     /// δ [m].
     deviation: f64,
+    /// P in the middle.
+    orientation: Mat3,
+    /// σ/r: how far a point at the distance 1 from the centre comes from where it is with that orientation.
+    swing: f64,
 }
 
 /// From the values of a polynomial at k/8 to its Bernstein coefficients.
@@ -42,15 +66,28 @@ fn bernstein(j: usize, t: f64) -> f64 {
 }
 
 impl PathBound {
-    /// Through the centres at equal parts of a step.
-    pub fn through((start, end): (f64, f64), centers: &[Vec3; NODES]) -> Self {
-        let (from, to) = (centers[0], centers[DEGREE]);
-        let off = |k: usize| centers[k] - from.lerp(&to, k as f64 / DEGREE as f64);
-        let axes: [SVector<f64, NODES>; 3] =
-            [0, 1, 2].map(|axis| *COEFFICIENTS * SVector::from_fn(|k, _| off(k)[axis]));
-        let size = |k: usize| Vec3::new(axes[0][k], axes[1][k], axes[2][k]).norm();
-        let deviation = (0..NODES).map(size).fold(0.0, f64::max);
-        Self { start, end, from, to, deviation }
+    /// Through the places at equal parts of a step.
+    pub fn through((start, end): (f64, f64), nodes: &[Node; NODES]) -> Self {
+        let (from, to) = (nodes[0].center, nodes[DEGREE].center);
+        let off = |k: usize| nodes[k].center - from.lerp(&to, k as f64 / DEGREE as f64);
+        let middle = nodes[DEGREE / 2].quaternion;
+        let turned = |k: usize| SVector::from(nodes[k].quaternion.0) - SVector::from(middle.0);
+        let swing = 2.0 * (largest(turned) / SVector::from(middle.0).norm()).min(1.0);
+        Self { start, end, from, to, deviation: largest(off), orientation: middle.rotation(), swing }
+    }
+
+    /// A body that goes on as it does for a time [s], to first order in how it turns.
+    pub fn ahead(at: &StepEnd, time: f64) -> Self {
+        let from = at.motion.placement.position;
+        Self {
+            start: 0.0,
+            end: time,
+            from,
+            to: from + time * at.motion.velocity.velocity,
+            deviation: 0.5 * at.acceleration.norm() * time * time,
+            orientation: at.motion.placement.gradient,
+            swing: (at.motion.angular_velocity().norm() * time).min(2.0),
+        }
     }
 
     /// The times of the places through which a bound is laid [s].
@@ -77,6 +114,42 @@ impl PathBound {
         let apart = |time: f64| self.chord(time) - other.chord(time);
         nearest(&apart(begin), &apart(end)) <= reach + (self.deviation + other.deviation)
     }
+
+    /// Whether the shapes of two bodies stay farther apart than `reach` [m] at all times that both steps have, along an
+    /// axis of one of them or the line of their centres.
+    pub fn stay_apart(&self, other: &Self, reach: f64, solids: [&Solid; 2]) -> bool {
+        let (begin, end) = (self.start.max(other.start), self.end.min(other.end));
+        if begin >= end {
+            return true;
+        }
+        let [from, to] = [begin, end].map(|time| other.chord(time) - self.chord(time));
+        let slack = self.slack(solids[0]) + other.slack(solids[1]);
+        let is_apart = |axis: Vec3| {
+            let axis = if axis.dot(&from) < 0.0 { -axis } else { axis };
+            let room = axis.dot(&from).min(axis.dot(&to)) - slack - reach;
+            let extents = || {
+                let own = solids[0].extent(&self.orientation.tr_mul(&axis));
+                own + solids[1].extent(&-other.orientation.tr_mul(&axis))
+            };
+            room > 0.0 && room > extents()
+        };
+        let axes = [&self.orientation, &other.orientation];
+        let axes = axes.into_iter().flat_map(|axes| axes.column_iter().map(|axis| axis.into_owned()));
+        axes.chain(from.try_normalize(0.0)).any(is_apart)
+    }
+
+    /// How far a point of a body may be from where the chord and the orientation have it [m].
+    fn slack(&self, solid: &Solid) -> f64 {
+        self.deviation + self.swing * solid.radius().unwrap_or_default()
+    }
+}
+
+/// The length of the largest Bernstein coefficient of a polynomial with these values at equal parts of a step.
+fn largest<const N: usize>(value: impl Fn(usize) -> SVector<f64, N>) -> f64 {
+    let axes: [SVector<f64, NODES>; N] =
+        std::array::from_fn(|axis| *COEFFICIENTS * SVector::from_fn(|k, _| value(k)[axis]));
+    let size = |k: usize| SVector::<f64, N>::from_fn(|axis, _| axes[axis][k]).norm();
+    (0..NODES).map(size).fold(0.0, f64::max)
 }
 
 /// The smallest length of a vector that goes straight from one to another.
@@ -90,12 +163,15 @@ fn nearest(from: &Vec3, to: &Vec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use gyration::shape::{Cuboid, Shape};
 
     fn bound((start, end): (f64, f64), place: impl Fn(f64) -> Vec3) -> PathBound {
-        PathBound::through(
-            (start, end),
-            &std::array::from_fn(|k| place(start + (end - start) * k as f64 / DEGREE as f64)),
-        )
+        turning((start, end), |t| Node { center: place(t), quaternion: Quaternion::IDENTITY })
+    }
+
+    fn turning((start, end): (f64, f64), node: impl Fn(f64) -> Node) -> PathBound {
+        let nodes = std::array::from_fn(|k| node(start + (end - start) * k as f64 / DEGREE as f64));
+        PathBound::through((start, end), &nodes)
     }
 
     #[test]
@@ -129,5 +205,52 @@ mod tests {
         let other = straight((0.0, 1.9), Vec3::new(2.0, -2.0, 0.0), Vec3::y());
         assert!(!one.may_meet(&other, 0.1) && one.may_meet(&other, 0.2));
         assert!(!one.may_meet(&straight((4.0, 5.0), Vec3::zeros(), Vec3::x()), 10.0));
+    }
+
+    /// A plank of 1 × 0.1 × 0.01 m.
+    fn plank() -> Solid {
+        let shape = Shape::Box(Cuboid { size: Vec3::new(1.0, 0.1, 0.01) });
+        let mass = shape.mass_properties(1.0);
+        Solid::new(shape, mass)
+    }
+
+    #[test]
+    fn planks_side_by_side_stay_apart_until_one_turns_into_the_other() {
+        let plank = plank();
+        let still = bound((0.0, 1.0), |_| Vec3::zeros());
+        let beside = bound((0.5, 1.5), |_| Vec3::new(0.2, 0.3, 0.0));
+        assert!(still.may_meet(&beside, 1.1), "their spheres overlap");
+        assert!(still.stay_apart(&beside, 0.19, [&plank; 2]) && !still.stay_apart(&beside, 0.21, [&plank; 2]));
+        for (angle, apart) in [(0.01, true), (0.5, false)] {
+            // About the third axis by the angle over the step, which moves the ends by half of it.
+            let turns = turning((0.5, 1.5), |t| {
+                let half = 0.5 * angle * (t - 0.5);
+                let quaternion = Quaternion([half.cos(), 0.0, 0.0, half.sin()]);
+                Node { center: Vec3::new(0.2, 0.3, 0.0), quaternion }
+            });
+            assert_eq!(still.stay_apart(&turns, 0.15, [&plank; 2]), apart, "turned by {angle}");
+            assert_eq!(turns.stay_apart(&still, 0.15, [&plank; 2]), apart, "turned by {angle}");
+        }
+        // One that falls onto the other meets it, whichever axis it begins beside.
+        let falls = bound((0.0, 1.0), |t| Vec3::new(0.0, 0.0, 0.3 - 0.3 * t));
+        assert!(!still.stay_apart(&falls, 0.01, [&plank; 2]));
+    }
+
+    #[test]
+    fn no_point_of_a_body_that_turns_leaves_its_orientation_by_more_than_the_swing() {
+        for angle in [0.03, 0.4, 1.5] {
+            let orientation = |t: f64| {
+                let half = 0.5 * angle * t * t;
+                Quaternion([half.cos(), 0.6 * half.sin(), 0.0, 0.8 * half.sin()])
+            };
+            let bound = turning((0.0, 1.0), |t| Node { center: Vec3::zeros(), quaternion: orientation(t) });
+            let off = |k: i32| {
+                let turned = orientation(f64::from(k) / 1000.0).rotation() - bound.orientation;
+                (turned.transpose() * turned).symmetric_eigenvalues().max().sqrt()
+            };
+            let most = (0..=1000).map(off).fold(0.0, f64::max);
+            println!("turned by {angle}: off by {most}, bound {}", bound.swing);
+            assert!(bound.swing >= most && bound.swing < 2.0 * most);
+        }
     }
 }

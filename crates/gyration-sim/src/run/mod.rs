@@ -16,6 +16,7 @@
 
 mod assembled;
 mod control;
+mod meeting;
 mod partition;
 mod samples;
 mod window;

@@ -9,12 +9,13 @@
 
 use crate::island::{Island, PathBound, Paths, Setting};
 use crate::outcome::Stop;
+use crate::run::meeting::{Approaching, Meeting};
 use crate::run_state::Settled;
 use gyration::model::Model;
 use gyration::neighbours::{BodyPair, Bounds, BoxTree};
 use gyration::pair::EDGE;
 use gyration_ode::Components;
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// The boxes are laid anew where the bodies whose steps are new, times this, are more than all.
@@ -41,32 +42,6 @@ pub(crate) struct Partition {
     revisions: u64,
     /// The time of the last change [s].
     changed: f64,
-}
-
-/// Two islands may meet within steps of which the later one begins at this time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Meeting {
-    time: f64,
-    /// The two bodies, and the rule by which they meet.
-    pair: BodyPair,
-    /// By which the paths of their islands were known.
-    revisions: [u64; 2],
-}
-
-impl Eq for Meeting {}
-
-impl PartialOrd for Meeting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Meeting {
-    /// By time, then in the order of pairs.
-    fn cmp(&self, other: &Self) -> Ordering {
-        let rest = |meeting: &Self| (meeting.pair, meeting.revisions);
-        self.time.total_cmp(&other.time).then(rest(self).cmp(&rest(other)))
-    }
 }
 
 /// A change of the partition.
@@ -226,9 +201,9 @@ impl Partition {
                 for rule in rules.of(body) {
                     let Some(bodies) = rules.all()[*rule].between(body, other) else { continue };
                     let pair = BodyPair { rule: *rule, bodies };
-                    let Some(cutoff) = model.cutoff(&pair) else { continue };
+                    let Some(approaching) = Approaching::of(model, &pair, [body, other]) else { continue };
                     // Later steps would meet later.
-                    if let Some(time) = new.iter().find_map(|bound| first_meeting(bound, seen, cutoff)) {
+                    if let Some(time) = new.iter().find_map(|bound| approaching.first_meeting(bound, seen)) {
                         let is_first = bodies[0] == body;
                         let revisions = if is_first { [revision, revision_there] } else { [revision_there, revision] };
                         queue.push(Reverse(Meeting { time, pair, revisions }));
@@ -352,14 +327,6 @@ fn boxes(model: &Model, island: &Island, steps: usize) -> impl Iterator<Item = (
 /// The last of some steps, so many if there are.
 fn last(steps: &[PathBound], count: usize) -> &[PathBound] {
     &steps[steps.len().saturating_sub(count)..]
-}
-
-/// When a step of one body and the first of the steps of another begin within which they may be closer than a distance.
-fn first_meeting(bound: &PathBound, others: &[PathBound], cutoff: f64) -> Option<f64> {
-    let from = others.partition_point(|other| other.end <= bound.start);
-    let beside = others[from..].iter().take_while(|other| other.start < bound.end);
-    let mut near = beside.filter(|other| bound.may_meet(other, cutoff));
-    near.next().map(|other| bound.start.max(other.start))
 }
 
 /// The paths of an island that somebody has looked at, and what they are known by.

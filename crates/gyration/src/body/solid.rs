@@ -2,7 +2,8 @@
 
 use crate::mass::MassProperties;
 use crate::shape::Shape;
-use crate::surface::Surface;
+use crate::surface::{GapField, Surface};
+use crate::tensor::Vec3;
 
 /// Shape, mass and surface; ten thousand equal grains have one.
 #[derive(Debug, Clone)]
@@ -60,6 +61,12 @@ impl Solid {
     /// The largest radius of its parts about the centre of mass [m]; none without a surface.
     pub fn radius(&self) -> Option<f64> {
         self.radii.iter().copied().reduce(f64::max)
+    }
+
+    /// The support function h(n) = max X·n over the surface about the centre of mass [m]; −∞ without a surface.
+    pub fn extent(&self, direction: &Vec3) -> f64 {
+        let lowest = |surface: &Surface| surface.smallest_gap(&GapField::new(0.0, -direction)).0;
+        self.surface.as_ref().map_or(f64::NEG_INFINITY, |surface| -lowest(surface))
     }
 
     /// The surface of a part.

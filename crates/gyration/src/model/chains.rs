@@ -48,15 +48,24 @@ impl Model {
     /// The distance of the centres from which on two bodies do nothing to each other by a rule [m]; none if there is
     /// none, as where one of them deforms.
     pub fn cutoff(&self, pair: &BodyPair) -> Option<f64> {
-        let bodies = pair.bodies.map(|body| &self.bodies[body]);
-        if bodies.iter().any(|body| body.affine().is_some()) {
-            return None;
-        }
-        let solids = bodies.map(|body| &*body.solid);
+        let solids = self.rigid_solids(pair)?;
         let of_parts = |parts: [usize; 2]| {
             let reach = self.rules.all()[pair.rule].reach_between(solids, parts)?;
             Some(cutoff(reach, [0, 1].map(|end| solids[end].part_radius(parts[end]))))
         };
         Solid::parts_of(solids).filter_map(of_parts).reduce(f64::max)
+    }
+
+    /// The distance of their surfaces from which on two bodies do nothing to each other by a rule [m]; none if there is
+    /// none, as where one of them deforms.
+    pub fn reach(&self, pair: &BodyPair) -> Option<f64> {
+        let solids = self.rigid_solids(pair)?;
+        let of_parts = |parts: [usize; 2]| self.rules.all()[pair.rule].reach_between(solids, parts);
+        Solid::parts_of(solids).filter_map(of_parts).reduce(f64::max)
+    }
+
+    fn rigid_solids(&self, pair: &BodyPair) -> Option<[&Solid; 2]> {
+        let bodies = pair.bodies.map(|body| &self.bodies[body]);
+        bodies.iter().all(|body| body.affine().is_none()).then(|| bodies.map(|body| &*body.solid))
     }
 }
