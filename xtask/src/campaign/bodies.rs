@@ -13,6 +13,17 @@ pub struct RandomBody {
     pub text: String,
     /// Whether it can touch anything.
     pub has_surface: bool,
+    /// P at the start, where it may be joined to another body.
+    pub joinable: Option<Joinable>,
+}
+
+/// What a joint needs of a body.
+#[derive(Debug, Clone, Copy)]
+pub struct Joinable {
+    /// P at the start.
+    pub placement: Matrix,
+    /// Whether it deforms.
+    pub deforms: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,6 +42,8 @@ pub struct Place {
     pub towards: Vector,
     /// The line that names its groups, if it has any.
     pub groups: &'static str,
+    /// Whether it starts at rest, as bodies do that are joined.
+    pub rests: bool,
 }
 
 /// A body; in a fluid of this density [kg/m³], most are immersed.
@@ -62,14 +75,17 @@ pub fn body(draft: &mut Draft, name: &str, place: Place, fluid: Option<f64>) -> 
         deformed: kind == Kind::Affine,
         is_incompressible: flesh.as_ref().is_some_and(|flesh| flesh.is_incompressible),
         has_inertia: immersion.as_ref().is_none_or(|immersion| immersion.has_inertia),
-        is_pinned: immersion.is_none() && !draft.isolated && draft.stream.chance(0.1),
+        is_pinned: immersion.is_none() && !place.rests && !draft.isolated && draft.stream.chance(0.1),
     };
-    start(draft, &mut text, may_have, place);
+    let placement = start(draft, &mut text, may_have, place);
     if !draft.isolated && draft.stream.chance(0.15) {
         spring(draft, &mut text, place.at);
     }
     let flesh = flesh.map_or(String::new(), |flesh| flesh.text);
-    RandomBody { text: format!("{text}{table}\n{flesh}\n"), has_surface: of != ShapeKind::Points }
+    // Joints hold bodies with inertia, and none with a memory of the flow.
+    let joins = immersion.is_none_or(|immersion| immersion.has_inertia && !immersion.has_history);
+    let joinable = joins.then_some(Joinable { placement, deforms: kind != Kind::Rigid });
+    RandomBody { text: format!("{text}{table}\n{flesh}\n"), has_surface: of != ShapeKind::Points, joinable }
 }
 
 /// Points have masses of their own, parts of a union weights.
@@ -85,6 +101,7 @@ fn mass(draft: &mut Draft, text: &mut String, of: ShapeKind) {
 struct Immersion {
     text: String,
     has_inertia: bool,
+    has_history: bool,
 }
 
 impl Immersion {
@@ -101,7 +118,7 @@ impl Immersion {
                 text.push_str(", tolerance = 0.3");
             }
         }
-        Self { text, has_inertia }
+        Self { text, has_inertia, has_history: history }
     }
 }
 
@@ -115,7 +132,8 @@ struct Start {
     is_pinned: bool,
 }
 
-fn start(draft: &mut Draft, text: &mut String, start: Start, place: Place) {
+/// Writes how a body starts; P.
+fn start(draft: &mut Draft, text: &mut String, start: Start, place: Place) -> Matrix {
     let turn = draft.stream.turn();
     let spin = draft.speed() / draft.size * draft.stream.decade(-2.0, 0.3);
     let placement = start.deformed.then(|| stretched(draft, &rotation(turn), start.is_incompressible));
@@ -123,7 +141,8 @@ fn start(draft: &mut Draft, text: &mut String, start: Start, place: Place) {
         Some(placement) => writeln!(text, "gradient = {}", rows(placement)),
         None => writeln!(text, "orientation = {{ quaternion = {} }}", list(&turn)),
     };
-    if start.has_inertia {
+    let moves = start.has_inertia && !place.rests;
+    if moves {
         let _ = match &placement {
             Some(placement) => {
                 let rate = scaled_rows(&deviator(&draft.stream.matrix()), 0.3 * spin);
@@ -135,13 +154,14 @@ fn start(draft: &mut Draft, text: &mut String, start: Start, place: Place) {
     if start.is_pinned {
         let pin = scaled(draft.stream.direction(), draft.size * draft.stream.unit());
         let _ = writeln!(text, "pin = {}", list(&pin));
-    } else if start.has_inertia {
+    } else if moves {
         // Towards what it may meet, or without gravity it may never come there.
         let speed = draft.speed() * draft.stream.decade(-1.0, 0.3);
         let (way, beside) = (direction(place), draft.stream.direction());
         let velocity = [0, 1, 2].map(|k| speed * (way[k] + 0.4 * beside[k]));
         let _ = writeln!(text, "velocity = {}", list(&velocity));
     }
+    placement.unwrap_or_else(|| rotation(turn))
 }
 
 /// The direction from a body to where it flies.

@@ -1,9 +1,9 @@
 //! Random meetings: where bodies stand so as to meet, their groups, the contacts and springs between them.
 
-use super::bodies::Place;
+use super::bodies::{Joinable, Place};
 use super::contacts::laws;
 use super::draft::Draft;
-use super::toml::{list, scaled};
+use super::toml::{list, scaled, solved};
 use std::fmt::Write as _;
 
 /// Sizes between the centres of two bodies: what is drawn reaches hardly farther than a size from its centre.
@@ -21,7 +21,7 @@ pub fn places(draft: &Draft, count: usize, height: f64) -> Vec<Place> {
     let towards = [0, 1, 2].map(|axis| sum(axis) / count as f64);
     // All are in one group, every other one in another as well.
     let groups = ["group = [\"all\", \"some\"]\n", "group = \"all\"\n"];
-    (0..count).map(|k| Place { at: at(k), towards, groups: groups[k % 2] }).collect()
+    (0..count).map(|k| Place { at: at(k), towards, groups: groups[k % 2], rests: false }).collect()
 }
 
 /// The contacts between so many bodies, and the springs.
@@ -60,6 +60,31 @@ fn spring(draft: &mut Draft, other: usize) -> String {
         let damping = (stiffness * draft.mass).sqrt() * draft.stream.decade(-2.0, 0.0);
         let rest = APART * draft.size * draft.stream.unit();
         let _ = writeln!(text, "rest_length = {rest:?}\ndamping = {damping:?}");
+    }
+    text + "\n"
+}
+
+/// A joint between the first two bodies, about the middle between their centres.
+pub fn joint(draft: &mut Draft, bodies: [Joinable; 2], places: [Place; 2]) -> String {
+    let all = ["ball", "hinge", "distance", "slider", "weld"];
+    // A body that deforms has no slider and no weld.
+    let count = if bodies.iter().any(|body| body.deforms) { 3 } else { 5 };
+    let kind = draft.stream.pick(&all[..count]);
+    let beside = scaled(draft.stream.direction(), 0.5 * draft.size);
+    let middle = [0, 1, 2].map(|axis| 0.5 * (places[0].at[axis] + places[1].at[axis]) + beside[axis]);
+    let points = [0, 1].map(|end| {
+        let arm = [0, 1, 2].map(|axis| middle[axis] - places[end].at[axis]);
+        solved(&bodies[end].placement, arm)
+    });
+    // The distance is to the centre of the second.
+    let second = if kind == "distance" { [0.0; 3] } else { points[1] };
+    let mut text = format!(
+        "[[joint]]\nname = \"joint\"\nbetween = [\"b0\", \"b1\"]\nkind = \"{kind}\"\npoints = [{}, {}]\n",
+        list(&points[0]),
+        list(&second)
+    );
+    if matches!(kind, "hinge" | "slider") {
+        let _ = writeln!(text, "axis = {}", list(&draft.stream.direction()));
     }
     text + "\n"
 }

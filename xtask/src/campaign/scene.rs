@@ -3,7 +3,7 @@
 use super::bodies::{Place, body};
 use super::contacts::{contact, supports};
 use super::draft::Draft;
-use super::meetings::{meetings, places};
+use super::meetings::{joint, meetings, places};
 use super::toml::{deviator, list, rows, scaled, scaled_rows};
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -47,14 +47,15 @@ impl RandomScene {
         let count = draft.stream.pick(if draft.meets { &[2, 2, 2, 3, 3, 4, 6] } else { &[1, 1, 1, 1, 1, 2, 3] });
         let rest_gap = draft.size * draft.stream.decade(-3.0, -1.0);
         let height = supports.height + rest_gap;
-        let places = match draft.meets {
-            true => places(draft, count, height),
-            false => vec![Place { at: [0.0, 0.0, height], towards: [0.0; 3], groups: "" }; count],
-        };
-        let (mut bodies, mut contacts) = (Vec::new(), Vec::new());
-        for (index, place) in places.into_iter().enumerate() {
+        let alone = Place { at: [0.0, 0.0, height], towards: [0.0; 3], groups: "", rests: false };
+        let mut places = if draft.meets { places(draft, count, height) } else { vec![alone; count] };
+        let is_joined = draft.meets && draft.stream.chance(0.25);
+        places.iter_mut().take(2).for_each(|place| place.rests = is_joined);
+        let (mut bodies, mut contacts, mut joinable) = (Vec::new(), Vec::new(), Vec::new());
+        for (index, place) in places.iter().copied().enumerate() {
             let name = format!("b{index}");
             let drawn = body(draft, &name, place, has_fluid.then_some(fluid_density));
+            joinable.push(drawn.joinable);
             bodies.push(drawn.text);
             for support in 0..if drawn.has_surface { supports.count } else { 0 } {
                 contacts.push(contact(draft, support, &name, rest_gap));
@@ -62,6 +63,9 @@ impl RandomScene {
         }
         if draft.meets {
             contacts.extend(meetings(draft, count, rest_gap));
+        }
+        if let (true, [Some(one), Some(other), ..]) = (is_joined, &joinable[..]) {
+            contacts.push(joint(draft, [*one, *other], [places[0], places[1]]));
         }
         let exchanged = (count > 1).then(|| {
             let reversed = contacts.iter().chain(&bodies).rev().cloned().collect::<String>();
@@ -189,6 +193,12 @@ mod tests {
             "between",
             "reach",
             "[[spring]]",
+            "[[joint]]",
+            "kind = \"ball\"",
+            "kind = \"hinge\"",
+            "kind = \"slider\"",
+            "kind = \"weld\"",
+            "kind = \"distance\"",
             "group = [",
         ];
         for word in words {

@@ -55,6 +55,16 @@ pub fn determinant([a, b, c]: &Matrix) -> f64 {
     a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
+/// The vector that a matrix takes to another, by Cramer's rule.
+pub fn solved(matrix: &Matrix, right: Vector) -> Vector {
+    let replaced = |column: usize| {
+        let mut rows = *matrix;
+        rows.iter_mut().zip(right).for_each(|(row, entry)| row[column] = entry);
+        determinant(&rows) / determinant(matrix)
+    };
+    [0, 1, 2].map(replaced)
+}
+
 /// The rotation of a unit quaternion.
 pub fn rotation([w, x, y, z]: [f64; 4]) -> Matrix {
     [
@@ -84,5 +94,9 @@ mod tests {
         let rest = deviator(&stream.matrix());
         assert!((rest[0][0] + rest[1][1] + rest[2][2]).abs() < 1e-15);
         assert_eq!(product(&UNIT, &turn), turn);
+        let solution = solved(&turn, [0.3, -0.2, 0.5]);
+        for (row, right) in turn.iter().zip([0.3, -0.2, 0.5]) {
+            assert!((row.iter().zip(solution).map(|(a, x)| a * x).sum::<f64>() - right).abs() < 1e-15);
+        }
     }
 }
