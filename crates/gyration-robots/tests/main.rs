@@ -5,6 +5,7 @@
 mod faults;
 mod left_out;
 mod mjcf;
+mod motion;
 mod poses;
 mod urdf;
 
