@@ -47,6 +47,8 @@ pub enum Command {
     Resistance(ResistanceArguments),
     /// List the built-in gallery, or print one of its scenes
     Scenes(Scenes),
+    /// Make a scene of a robot's file, URDF or MJCF; what has no counterpart is listed
+    Import(ImportArguments),
     /// Turn a recording into a table or a file for other programs
     Export(Export),
     /// Draw a recording, or the contact laws of a scene
@@ -216,6 +218,26 @@ pub struct ResistanceArguments {
 pub struct Scenes {
     /// Print the text of this scene
     pub name: Option<String>,
+}
+
+/// `gyration import`
+#[derive(Debug, Args)]
+pub struct ImportArguments {
+    /// File of the robot, URDF or MJCF
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// Scene to write; - writes it to stdout [default: STEM.toml in the current folder]
+    #[arg(short, long, value_name = "SCENE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+    /// The root of a URDF stands still, whatever its name and mass
+    #[arg(long)]
+    pub fixed_base: bool,
+    /// Replace an existing scene
+    #[arg(long)]
+    pub force: bool,
+    /// Do not say what was left out and what was chosen; both stand at the head of the scene
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// `gyration export`

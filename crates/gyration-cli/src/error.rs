@@ -3,6 +3,7 @@
 use gyration_files::in_words;
 use gyration_plot::PlotError;
 use gyration_record::RecordError;
+use gyration_robots::ImportError;
 use gyration_scene::{LoadError, NotInGallery, NotToml};
 use gyration_sim::resistance::NoSuchResistance;
 use gyration_sim::{Reason, RunError};
@@ -12,6 +13,7 @@ use gyration_threads::Threads;
 #[cfg(feature = "view")]
 use gyration_view::ViewError;
 use std::io;
+use std::path::PathBuf;
 
 /// A failure of the program.
 #[derive(Debug, thiserror::Error)]
@@ -47,6 +49,17 @@ pub enum CliError {
         problem: String,
         /// What to do.
         fix: String,
+    },
+    /// The file of a robot gives no scene.
+    #[error(transparent)]
+    Import(#[from] ImportError),
+    /// A file cannot be written.
+    #[error("cannot write {path}: {}", in_words(source), path = path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
     },
     /// There is no such scene in the gallery.
     #[error(transparent)]
@@ -102,6 +115,7 @@ impl CliError {
                 _ => code::ENDED_EARLY,
             },
             Self::Scene(LoadError::Content(_)) | Self::Arguments { .. } => code::BAD_INPUT,
+            Self::Import(ImportError::Content(_)) => code::BAD_INPUT,
             Self::Gallery(_) | Self::Resistance(_) | Self::Resolved(_) => code::BAD_INPUT,
             Self::Run(RunError::Start(_) | RunError::OtherScene { .. }) => code::BAD_INPUT,
             Self::Plot(PlotError::Nothing { .. } | PlotError::Measure { .. } | PlotError::Arguments { .. }) => {
@@ -126,6 +140,8 @@ impl CliError {
             | Self::Record(_)
             | Self::Run(_)
             | Self::Plot(_)
+            | Self::Import(_)
+            | Self::Write { .. }
             | Self::Stdout(_)
             | Self::Signal(_) => code::BAD_FILE,
         }

@@ -11,6 +11,7 @@ mod common;
 mod drive_plots;
 mod export;
 mod full_disk;
+mod import;
 mod meeting_plots;
 mod python;
 mod remarks;

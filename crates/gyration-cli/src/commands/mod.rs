@@ -6,6 +6,7 @@ mod calibrate;
 mod check;
 mod completions;
 mod export;
+mod import;
 mod modes;
 mod plot;
 #[cfg(feature = "view")]
@@ -34,6 +35,7 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::Bands(arguments) => bands::execute(&arguments),
         Command::Resistance(arguments) => resistance::execute(&arguments),
         Command::Scenes(arguments) => scenes::execute(&arguments),
+        Command::Import(arguments) => import::execute(&arguments),
         Command::Export(arguments) => export::execute(&arguments),
         Command::Plot(arguments) => plot::execute(&arguments),
         #[cfg(feature = "view")]
