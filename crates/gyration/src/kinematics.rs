@@ -70,6 +70,13 @@ impl Quaternion {
         Self([numbers[0], numbers[1], numbers[2], numbers[3]])
     }
 
+    /// The unit quaternion along four numbers (w, x, y, z) of any size; none of zeros.
+    pub fn along(numbers: [f64; 4]) -> Option<Self> {
+        // The largest first: squares of very long or short ones leave the range of numbers.
+        let largest = numbers.iter().fold(0.0_f64, |largest, number| largest.max(number.abs()));
+        (largest > 0.0).then(|| Self(numbers.map(|number| number / largest)).normalized())
+    }
+
     /// The rotation by `angle` [rad] about `axis` (any length but zero).
     pub fn from_axis_angle(axis: &Vec3, angle: f64) -> Self {
         let (sin, cos) = libm::sincos(0.5 * angle);

@@ -17,13 +17,12 @@ pub(super) fn orientation(orientation: &Orientation, key: &Key, reporter: &mut R
             Some(Quaternion::from_axis_angle(&axis, turn.angle.0))
         }
         Orientation::Quaternion(components) => {
-            let largest = components.iter().fold(0.0_f64, |largest, component| largest.max(component.abs()));
-            if largest == 0.0 {
+            let along = Quaternion::along(*components);
+            if along.is_none() {
                 let help = "write [w, x, y, z], [1, 0, 0, 0] for no rotation";
                 reporter.note(&key.key("quaternion"), "the quaternion is zero", help);
-                return None;
             }
-            Some(Quaternion(components.map(|component| component / largest)).normalized())
+            along
         }
         Orientation::EulerXyz(angles) => {
             let turn = |axis: Vec3, index: usize| Quaternion::from_axis_angle(&axis, angles[index].0);
