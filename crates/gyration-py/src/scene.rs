@@ -241,7 +241,8 @@ impl Scene {
     }
 
     fn __repr__(&self) -> String {
-        let bodies = self.bodies();
+        // Copies have one name here.
+        let bodies: Vec<&str> = self.inner.file().body.iter().map(|body| body.name.as_str()).collect();
         let title = self.title().map(|title| format!(" {title:?}")).unwrap_or_default();
         format!("<gyration.Scene {}{title}: {}>", self.inner.name(), bodies.join(", "))
     }

@@ -79,12 +79,16 @@ impl SceneNumber {
     pub fn starts_only(&self, scene: &Scene) -> bool {
         let mut words = self.key.split('.');
         let (Some("body"), Some(name), Some(part)) = (words.next(), words.next(), words.next()) else { return false };
-        let model = &scene.built().model;
-        let body = model.find_body(name).or_else(|| name.parse().ok()).and_then(|index| model.bodies.get(index));
+        let named = scene.file().body.iter().position(|body| body.name == name).or_else(|| name.parse().ok());
+        let built = scene.built();
+        // A `[[body]]` may stand for many.
+        let own = built.model.bodies.iter().zip(&built.written).filter(|(_, written)| Some(**written) == named);
         // A pin or a guide stays where the start has put it, and so belongs to the equations.
         let is_start =
             ["position", "velocity", "angular_velocity", "orientation", "gradient", "gradient_rate"].contains(&part);
-        is_start && body.is_some_and(|body| body.pin.is_none() && body.guide.is_none())
+        is_start
+            && own.clone().next().is_some()
+            && own.clone().all(|(body, _)| body.pin.is_none() && body.guide.is_none())
     }
 
     /// The scene with another value in this place.

@@ -25,7 +25,7 @@ impl Survey {
     /// # Errors
     /// [`NotToml`] if the resolved scene has no form in TOML.
     pub fn text(&self, scene: &Scene) -> Result<String, NotToml> {
-        if self.bodies.len() <= MOST_BODIES {
+        if scene.file().body.len() <= MOST_BODIES {
             return Ok(format!("{}\n{HEADING}\n\n{}", in_words(scene, self), scene.to_toml()?));
         }
         let first: Vec<usize> = sorts(&self.bodies).iter().filter_map(|sort| sort.first().copied()).collect();
