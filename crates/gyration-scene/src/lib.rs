@@ -21,6 +21,7 @@ mod gallery;
 pub mod input;
 mod key;
 mod overriding;
+mod places;
 pub mod quantity;
 mod read;
 mod scene;

@@ -14,6 +14,7 @@ use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Vec3;
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// A scene without errors, with its text, its resolved form and its model.
@@ -79,12 +80,15 @@ impl Scene {
         Ok(numbers_as_shown(&toml::to_string(&self.file)?))
     }
 
-    /// The resolved form in TOML with only these of its bodies; where contacts name others, it is no scene.
+    /// The resolved form in TOML with only those of its bodies that these of the model come from; where contacts name
+    /// others, it is no scene.
     ///
     /// # Errors
     /// [`NotToml`] if it has none.
     pub fn excerpt(&self, bodies: &[usize]) -> Result<String, NotToml> {
-        let body = bodies.iter().filter_map(|index| self.file.body.get(*index)).cloned().collect();
+        let numbers: BTreeSet<usize> =
+            bodies.iter().filter_map(|body| self.built.written.get(*body).copied()).collect();
+        let body = numbers.iter().map(|number| self.file.body[*number].clone()).collect();
         Ok(numbers_as_shown(&toml::to_string(&SceneFile { body, ..self.file.clone() })?))
     }
 
@@ -110,12 +114,10 @@ impl Scene {
     ) -> Result<Self, SceneErrors> {
         let Some(Unknown { forms, document }) = self.unknown.take().map(|unknown| *unknown) else { return Ok(self) };
         let mut diagnostics = Diagnostics::of(ErrorKind::Value);
-        let written = self.file.body.len();
         for asked in forms {
-            // The copies of each body follow one another.
-            let number = asked.body * written / self.built.model.bodies.len();
+            let number = self.built.written[asked.body];
             match form(&self.built.model.bodies[asked.body], &asked) {
-                Ok(found) => self.built.give_form((asked.body, number), written, &found),
+                Ok(found) => self.built.give_form(asked.body, &found),
                 Err(error) => {
                     let key = Key::root().key("body").index(number).key("shape");
                     match error {

@@ -92,7 +92,7 @@ impl Template {
             read::apply(document.to_mut(), overrides, &mut diagnostics);
         }
         structure(&document.root, &RULES, &mut diagnostics);
-        let mut partial = PartialScene::new(&document, &mut diagnostics);
+        let mut partial = PartialScene::new(&document, &self.base, &mut diagnostics);
         let mut reporter = Reporter { document: &document, diagnostics: &mut diagnostics };
         values(&partial, &mut reporter);
         let constants = partial.constants.clone();

@@ -9,6 +9,7 @@ mod contractile;
 mod contractile_errors;
 mod contractile_robust;
 mod contractile_tables;
+mod copies;
 mod corpus;
 mod errors;
 mod joints;

@@ -13,9 +13,11 @@ use super::support;
 use crate::check::{Placed, Reporter};
 use crate::file::Body;
 use crate::key::Key;
+use crate::places::CopyPlace;
 use crate::quantity::si;
 use crate::units::shown;
-use gyration::body::{Body as Moving, BodyKind, Pin, RigidInertia};
+use gyration::body::{Body as Moving, BodyKind, Pin, RigidInertia, Solid};
+use gyration::fluid::Inclusion;
 use gyration::kinematics::Placement;
 use gyration::load::{Anchor, Spring, SpringLaw};
 use gyration::shape::Shape;
@@ -29,14 +31,28 @@ pub(super) struct AssembledBody {
     pub(super) name: String,
     pub(super) body: Arc<Moving>,
     pub(super) start: Start,
-    /// Its springs to anchors, of the body's number in the scene.
+    /// Its springs to anchors, of the body's index in the model.
     pub(super) springs: Vec<Spring>,
 }
 
-impl AssembledBody {
-    /// Builds a body, without its contacts; notes what is wrong with it.
+/// A body of the file but for where it is: what its copies have alike.
+pub(super) struct PreparedBody<'a> {
+    pub(super) placed: &'a Placed<Body>,
+    attitude: WrittenPlacement,
+    pub(super) solid: Arc<Solid>,
+    kind: BodyKind,
+    /// None where something is wrong with it.
+    inclusion: Option<Option<Inclusion>>,
+    own: Option<OwnForcesWritten>,
+    /// X of the pin \[m\].
+    arm: Option<Vec3>,
+    size: f64,
+}
+
+impl<'a> PreparedBody<'a> {
+    /// Builds a body, without its contacts and its place; notes what is wrong with it.
     pub(super) fn new(
-        placed: &Placed<Body>,
+        placed: &'a Placed<Body>,
         context: &SceneContext,
         solids: &mut Solids,
         reporter: &mut Reporter<'_>,
@@ -60,26 +76,68 @@ impl AssembledBody {
         let kind = deforming.kind(placed, &mass, shape.surface().is_some(), reporter);
         let arm = value.pin.as_ref().map(si);
         near(arm.as_ref(), &shape, key, reporter);
-        let mut kind = kind?;
+        let kind = kind?;
         let inclusion = ImmersedBody { placed, shape: &shape, mass: &mass, kind: &kind }.inclusion(context, reporter);
-        let mut start = attitude?.start(placed, &kind, reporter)?;
-        let guide = guide(placed, &mut kind, &mut start, reporter)?;
-        let place = placement(&start);
-        let springs = springs(placed, &place, reporter);
         if kind == BodyKind::Rigid(RigidInertia::POINT) {
             point(placed, reporter);
         }
-        let own = own?.at(&place, (&shape, &mass.center), reporter)?;
+        let (attitude, size) = (attitude?, size(&shape, &mass, &arm.unwrap_or_default()));
+        Some(Self { placed, attitude, solid: solids.share(shape, mass), kind, inclusion, own, arm, size })
+    }
+
+    /// How the body starts as it is written, without its copies.
+    pub(super) fn start(&self, reporter: &mut Reporter<'_>) -> Option<Start> {
+        self.attitude.start(self.placed, &self.kind, None, reporter)
+    }
+
+    /// The body alone, of this index in the model.
+    pub(super) fn alone(
+        &self,
+        index: usize,
+        solids: &mut Solids,
+        reporter: &mut Reporter<'_>,
+    ) -> Option<AssembledBody> {
+        let start = self.start(reporter)?;
+        self.starting(self.placed.value.name.clone(), index, start, solids, reporter)
+    }
+
+    /// Its copy of this number, at a place.
+    pub(super) fn copy(
+        &self,
+        number: usize,
+        place: &CopyPlace,
+        solids: &mut Solids,
+        reporter: &mut Reporter<'_>,
+    ) -> Option<AssembledBody> {
+        let start = self.attitude.start(self.placed, &self.kind, Some(place), reporter)?;
+        let name = format!("{}-{number}", self.placed.value.name);
+        // Springs to anchors, which need an index, have no copies.
+        self.starting(name, number, start, solids, reporter)
+    }
+
+    fn starting(
+        &self,
+        name: String,
+        index: usize,
+        mut start: Start,
+        solids: &mut Solids,
+        reporter: &mut Reporter<'_>,
+    ) -> Option<AssembledBody> {
+        let mut kind = self.kind.clone();
+        let guide = guide(self.placed, &mut kind, &mut start, reporter)?;
+        let place = placement(&start);
+        let springs = springs(self.placed, index, &place, reporter);
+        let own = self.own.clone()?.at(&place, (&self.solid.shape, &self.solid.mass.center), reporter)?;
         let body = Moving {
             kind,
-            size: size(&shape, &mass, &arm.unwrap_or_default()),
-            solid: solids.share(shape, mass),
-            pin: arm.map(|point| Pin { point, anchor: place.place(&point) }),
+            size: self.size,
+            solid: Arc::clone(&self.solid),
+            pin: self.arm.map(|point| Pin { point, anchor: place.place(&point) }),
             guide,
-            inclusion: inclusion?,
+            inclusion: self.inclusion.clone()?,
             own,
         };
-        Some(Self { name: value.name.clone(), body: solids.share_body(body), start, springs })
+        Some(AssembledBody { name, body: solids.share_body(body), start, springs })
     }
 }
 
@@ -122,9 +180,9 @@ fn near(arm: Option<&Vec3>, shape: &Shape, key: &Key, reporter: &mut Reporter<'_
     }
 }
 
-fn springs(placed: &Placed<Body>, place: &Placement, reporter: &mut Reporter<'_>) -> Vec<Spring> {
+fn springs(placed: &Placed<Body>, index: usize, place: &Placement, reporter: &mut Reporter<'_>) -> Vec<Spring> {
     let key = placed.key.key("spring");
-    let make = |(index, written): (usize, &crate::file::Spring)| {
+    let make = |(number, written): (usize, &crate::file::Spring)| {
         let (point, start) = (si(&written.point), si(&written.anchor));
         let law = SpringLaw {
             stiffness: written.stiffness.value(),
@@ -137,12 +195,12 @@ fn springs(placed: &Placed<Body>, place: &Placement, reporter: &mut Reporter<'_>
         if law.is_directed() && place.place(&point) == anchor.at(0.0).0 {
             let help = "move the anchor, or leave out `rest_length` and `damping`";
             reporter.note(
-                &key.index(index).key("anchor"),
+                &key.index(number).key("anchor"),
                 "the spring starts with no length and has no direction",
                 help,
             );
         }
-        Some(Spring::to(placed.number, point, anchor, law))
+        Some(Spring::to(index, point, anchor, law))
     };
     placed.value.spring.iter().enumerate().filter_map(make).collect()
 }

@@ -40,7 +40,7 @@ pub(super) fn attach(
     for Placed { key, value, .. } in &partial.contacts {
         let (measure, laws) = (measure(value.measure), laws(value));
         laws.iter().for_each(|law| range(law, key, reporter));
-        let partners = names.partners(value, assembled);
+        let partners = names.partners(value, assembled.len());
         match partners {
             // Without any law that pushes they have no plane, and are told so; adhesion alone pushes as well.
             Some(Partners::Bodies(_)) => check_released(value, &laws, key, reporter),

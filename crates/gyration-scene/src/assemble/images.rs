@@ -3,7 +3,7 @@
 use super::body::AssembledBody;
 use super::lattice::Cells;
 use super::pair::overlap_in_words;
-use super::start::placement;
+use super::start::{placement, stretch};
 use crate::check::Reporter;
 use crate::key::Key;
 use gyration::body::Solid;
@@ -70,11 +70,8 @@ pub(super) fn images(
 impl<'a> Extents<'a> {
     fn of(bodies: &'a [AssembledBody]) -> Self {
         let placements: Vec<Placement> = bodies.iter().map(|body| placement(&body.start)).collect();
-        // |P X| ≤ √‖PᵀP‖_∞ |X|.
         let spread = |(body, place): (&AssembledBody, &Placement)| {
-            let square = place.gradient.tr_mul(&place.gradient);
-            let sums = square.row_iter().map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>());
-            sums.fold(0.0, f64::max).sqrt() * body.body.solid.radius().unwrap_or(0.0)
+            stretch(&place.gradient) * body.body.solid.radius().unwrap_or(0.0)
         };
         let radii = bodies.iter().zip(&placements).map(spread).collect();
         Self { bodies, placements, radii }

@@ -11,6 +11,7 @@ mod contact;
 mod context;
 mod contractile;
 mod convex;
+mod copies;
 mod fluid;
 mod guide;
 mod images;
@@ -26,6 +27,7 @@ mod overlap;
 mod own;
 mod pair;
 mod partners;
+mod random;
 mod reach;
 mod resolve;
 mod salvage;
@@ -48,6 +50,7 @@ use crate::key::Key;
 use crate::quantity::si;
 use crate::unknown::UnknownForm;
 use body::AssembledBody;
+use copies::AssembledBodies;
 use gyration::body::Body;
 use gyration::contact::Contact;
 use gyration::fluid::{Fluid, Form};
@@ -64,7 +67,6 @@ use gyration::tensor::{Mat3, Vec3};
 use gyration_threads::Interruption;
 pub use lattice::CellLoad;
 use lattice::Cells;
-use solids::Solids;
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
@@ -87,12 +89,16 @@ pub struct Built {
     pub cell: Option<UnitCell>,
     /// The waves with which it starts, until the scene is completed.
     pub waves: Option<WaveStart>,
+    /// The number of the `[[body]]` that each body of the model comes from.
+    pub written: Vec<usize>,
 }
 
 impl Built {
-    /// Gives a body of the model, and all copies in the cells of which bands and waves are, the form that was not
-    /// known; the scene has so many bodies, of which it is a copy of the one of this number.
-    pub(crate) fn give_form(&mut self, (body, number): (usize, usize), written: usize, form: &Form) {
+    /// Gives a body of the model, and its images in the cells of which bands and waves are, the form that was not
+    /// known. In a lattice no body has copies.
+    pub(crate) fn give_form(&mut self, body: usize, form: &Form) {
+        let number = self.written[body];
+        let written = self.written.last().map_or(0, |last| last + 1);
         give_form(&mut self.model.bodies[body], form);
         let cells = self.cell.iter_mut().chain(self.waves.as_mut().map(|waves| &mut waves.cell));
         for cell in cells {
@@ -206,14 +212,9 @@ pub(crate) fn assemble(
     context: &SceneContext,
     reporter: &mut Reporter<'_>,
 ) -> Option<(Built, Vec<UnknownForm>)> {
-    let solids = &mut Solids::default();
-    // A place for each body of the file: one with an error still counts for names and groups.
-    let mut assembled: Vec<Option<AssembledBody>> = vec![None; partial.roll.len()];
-    for body in &partial.bodies {
-        assembled[body.number] = AssembledBody::new(body, context, solids, reporter);
-    }
-    let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
     let supports = AssembledSupports::of(partial, context.base, reporter);
+    let AssembledBodies { all: mut assembled, starts } = AssembledBodies::of(partial, &supports, context, reporter);
+    let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
     let (contacts, rules, rule_keys) = contact::attach(partial, &supports, &assembled, reporter);
     let anchored = assembled.iter().flatten().flat_map(|body| &body.springs).cloned();
     let cells = partial.lattice.as_ref().map(|written| Cells::of(written, reporter));
@@ -224,9 +225,13 @@ pub(crate) fn assemble(
     let mut met: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); assembled.len()];
     contacts.iter().for_each(|contact| _ = met[contact.body].insert(contact.support));
     for body in &mut partial.bodies {
-        if let Some(assembled_body) = &assembled[body.number] {
-            overlap::check(body, assembled_body, &met[body.number], &supports.planes, reporter);
-            resolve::resolve(&mut body.value, &assembled_body.start);
+        for index in partial.numbers.range(body.number) {
+            if let Some(assembled_body) = &assembled[index] {
+                overlap::check(body, assembled_body, &met[index], &supports.planes, reporter);
+            }
+        }
+        if let Some(start) = &starts[body.number] {
+            resolve::resolve(&mut body.value, start);
         }
     }
     joint::give_sizes(&mut assembled, &joints);
@@ -289,11 +294,15 @@ pub(crate) fn assemble(
         }
     }
     let record = partial.record.as_ref().map(Record::new).unwrap_or_default();
-    let copies = cells.as_ref().map_or(1, Cells::count);
-    let written = partial.bodies.iter().flat_map(|written| std::iter::repeat_n(written, copies));
-    let forms = written.zip(&model.bodies).enumerate();
-    let forms = forms.filter_map(|(index, (written, body))| fluid::unknown(&written.value, body, index)).collect();
-    Some((Built { model, state, plan, record, cell, waves }, forms))
+    let cells = cells.as_ref().map_or(1, Cells::count);
+    let written: Vec<usize> =
+        partial.numbers.written().into_iter().flat_map(|number| std::iter::repeat_n(number, cells)).collect();
+    let forms = model.bodies.iter().zip(&written).enumerate();
+    let form = |(index, (body, number)): (usize, (&Arc<Body>, &usize))| {
+        fluid::unknown(&partial.bodies[*number].value, body, index)
+    };
+    let forms = forms.filter_map(form).collect();
+    Some((Built { model, state, plan, record, cell, waves, written }, forms))
 }
 
 /// Gives mass points a size, by which tolerances are judged: the length of their shortest spring or bond, else of the

@@ -4,7 +4,7 @@ use super::body::AssembledBody;
 use super::convex::convex_help;
 use super::partners::without_surface;
 use super::reach;
-use super::start::placement;
+use super::start::{placement, stretch};
 use super::support::AssembledSupports;
 use crate::check::Reporter;
 use crate::file::Contact;
@@ -195,12 +195,10 @@ impl WithSupport<'_> {
     }
 }
 
-/// A sphere that holds a body: |P X| ≤ √‖PᵀP‖_∞ |X|.
+/// A sphere that holds a body.
 fn sphere(assembled: &AssembledBody, placement: &Placement) -> Sphere {
     let Some(radius) = assembled.body.solid.radius() else { return Sphere::NOWHERE };
-    let square = placement.gradient.tr_mul(&placement.gradient);
-    let sums = square.row_iter().map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>());
-    Sphere::new(placement.position, sums.fold(0.0, f64::max).sqrt() * radius)
+    Sphere::new(placement.position, stretch(&placement.gradient) * radius)
 }
 
 /// Whether a body can meet others; notes why not.

@@ -1,7 +1,7 @@
 //! Who meets whom: the bodies and the support that the words of a contact name.
 
 use super::body::AssembledBody;
-use crate::check::{PartialScene, Reporter};
+use crate::check::{CopyNames, PartialScene, Reporter};
 use crate::file::Contact;
 use crate::key::Key;
 use std::collections::HashMap;
@@ -11,6 +11,7 @@ pub(super) struct Names<'a> {
     supports: HashMap<&'a str, usize>,
     /// The bodies of a group, well formed or not, ascending; a body's own name is a group of one.
     groups: HashMap<&'a str, Vec<usize>>,
+    copies: &'a CopyNames,
     /// Whether name and groups of every body are written as they must be.
     are_known: bool,
 }
@@ -35,12 +36,14 @@ impl<'a> Names<'a> {
         for (index, body) in partial.roll.iter().enumerate() {
             for word in &body.words {
                 let group = groups.entry(word).or_default();
-                if group.last() != Some(&index) {
-                    group.push(index);
+                let bodies = partial.numbers.range(index);
+                if group.last().is_none_or(|last| *last < bodies.start) {
+                    group.extend(bodies);
                 }
             }
         }
-        Self { supports, groups, are_known: partial.roll.iter().all(|body| body.are_known) }
+        let are_known = partial.roll.iter().all(|body| body.are_known);
+        Self { supports, groups, copies: &partial.copy_names, are_known }
     }
 
     /// Whether it is known of every body which groups it is in.
@@ -48,18 +51,23 @@ impl<'a> Names<'a> {
         self.are_known
     }
 
-    /// The partners of a contact; none where a name is not known, which has been noted.
-    pub fn partners(&self, contact: &Contact, bodies: &[Option<AssembledBody>]) -> Option<Partners> {
+    /// The bodies that a word names; none if it names none.
+    fn group(&self, name: &str) -> Option<Vec<usize>> {
+        self.groups.get(name).cloned().or_else(|| Some(vec![self.copies.find(name)?]))
+    }
+
+    /// The partners of a contact among so many bodies; none where a name is not known, which has been noted.
+    pub fn partners(&self, contact: &Contact, count: usize) -> Option<Partners> {
         let Some([one, other]) = &contact.between else {
             let support = *self.supports.get(contact.support.as_deref()?)?;
             let (bodies, named) = match &contact.body {
-                Some(name) => (self.groups.get(name.as_str())?.clone(), true),
-                None => ((0..bodies.len()).collect(), false),
+                Some(name) => (self.group(name)?, true),
+                None => ((0..count).collect(), false),
             };
             return Some(Partners::Support { support, bodies, named });
         };
         let support = |name: &String| self.supports.get(name.as_str()).copied();
-        let group = |name: &String| self.groups.get(name.as_str()).cloned();
+        let group = |name: &String| self.group(name);
         match (group(one), group(other)) {
             (Some(one), Some(other)) => Some(Partners::Bodies([one, other])),
             (Some(bodies), None) => Some(Partners::Support { support: support(other)?, bodies, named: true }),

@@ -4,7 +4,7 @@
 //! The body is built without the keys that something was found against; of what that finds, only that counts which no
 //! missing key can have caused.
 
-use super::body::AssembledBody;
+use super::body::PreparedBody;
 use super::context::SceneContext;
 use super::solids::Solids;
 use crate::check::{Placed, Reporter};
@@ -56,7 +56,10 @@ pub(crate) fn salvage(document: &Document, context: &SceneContext, diagnostics: 
         let Ok(value) = serde_json::from_value::<Body>(json) else { continue };
         let mut found = Diagnostics::default();
         let (placed, solids) = (Placed { key: key.clone(), number: index, value }, &mut Solids::default());
-        AssembledBody::new(&placed, context, solids, &mut Reporter { document, diagnostics: &mut found });
+        let reporter = &mut Reporter { document, diagnostics: &mut found };
+        if let Some(prepared) = PreparedBody::new(&placed, context, solids, reporter) {
+            prepared.alone(index, solids, reporter);
+        }
         let counts = |place: &Key| checked.iter().any(|name| key.key(name).holds(place));
         diagnostics.extend(found.into_iter().filter(|f| counts(&f.key) && !dirty.contains(&f.key)));
     }

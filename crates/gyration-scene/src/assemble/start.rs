@@ -12,6 +12,7 @@ use super::orientation::orientation;
 use crate::check::{Placed, Reporter};
 use crate::file::Body;
 use crate::key::Key;
+use crate::places::CopyPlace;
 use crate::quantity::si;
 use gyration::affine::AffineBody;
 use gyration::body::BodyKind;
@@ -55,44 +56,78 @@ impl WrittenPlacement {
         Some(Self { orientation, angular_velocity, gradient, gradient_rate, contraction })
     }
 
-    /// The whole start of a body of this kind; notes one that its constraint or its pin does not allow.
-    pub(super) fn start(&self, placed: &Placed<Body>, kind: &BodyKind, reporter: &mut Reporter<'_>) -> Option<Start> {
+    /// The same of a copy at a place: turned, with more spin.
+    fn of_copy(&self, body: &Body, place: &CopyPlace) -> Self {
+        let Self { mut orientation, mut gradient, mut gradient_rate, contraction, .. } = *self;
+        if let Some(turn) = &place.turn {
+            let rotation = turn.rotation();
+            orientation = turn.times(&orientation);
+            (gradient, gradient_rate) = (rotation * gradient, rotation * gradient_rate);
+        }
+        let angular_velocity = self.angular_velocity + place.angular_velocity;
+        gradient_rate = match body.gradient_rate {
+            Some(_) => gradient_rate + cross_matrix(&place.angular_velocity) * gradient,
+            None => cross_matrix(&angular_velocity) * gradient + following(&gradient, &contraction),
+        };
+        Self { orientation, angular_velocity, gradient, gradient_rate, contraction }
+    }
+
+    /// The whole start of a body of this kind, or of a copy of it at a place; notes one that its constraint or its pin
+    /// does not allow.
+    pub(super) fn start(
+        &self,
+        placed: &Placed<Body>,
+        kind: &BodyKind,
+        copy: Option<&CopyPlace>,
+        reporter: &mut Reporter<'_>,
+    ) -> Option<Start> {
+        let here = copy.map_or(*self, |place| self.of_copy(&placed.value, place));
+        let center = Center::of(placed, copy);
         match kind {
             BodyKind::Rigid(_) => {
-                let Self { orientation, angular_velocity, .. } = *self;
-                let (position, pin) = (si(&placed.value.position), placed.value.pin.as_ref().map(si));
-                let follows = pin.map(|pin| (orientation.rotation() * pin).cross(&angular_velocity));
-                let velocity = center_velocity(placed, follows, reporter)?;
-                Some(Start::Rigid(RigidStart { position, orientation, velocity, angular_velocity }))
+                let Self { orientation, angular_velocity, .. } = here;
+                let follows = center.pin.map(|pin| (orientation.rotation() * pin).cross(&angular_velocity));
+                let velocity = center.velocity(follows, reporter)?;
+                Some(Start::Rigid(RigidStart { position: center.position, orientation, velocity, angular_velocity }))
             }
             BodyKind::Affine(affine) => {
                 let (place, velocity) =
-                    self.deformable_start(placed, &affine.interior, &VolumeConstraint::VOLUME, reporter)?;
+                    here.deformable_start(&center, &affine.interior, &VolumeConstraint::VOLUME, reporter)?;
                 Some(Start::Affine(place, velocity))
             }
             BodyKind::Contractile(contractile) => {
-                let kept = VolumeConstraint::beside(&contractile.contraction, &self.contraction);
-                let (place, velocity) = self.deformable_start(placed, &contractile.affine.interior, &kept, reporter)?;
-                Some(Start::Contractile(place, velocity, self.contraction.value))
+                let kept = VolumeConstraint::beside(&contractile.contraction, &here.contraction);
+                let (place, velocity) =
+                    here.deformable_start(&center, &contractile.affine.interior, &kept, reporter)?;
+                Some(Start::Contractile(place, velocity, here.contraction.value))
             }
         }
     }
 
     fn deformable_start(
         &self,
-        placed: &Placed<Body>,
+        center: &Center<'_>,
         body: &AffineBody,
         kept: &VolumeConstraint,
         reporter: &mut Reporter<'_>,
     ) -> Option<(Placement, Velocity)> {
         let given = GradientStart { gradient: self.gradient, rate: self.gradient_rate };
         let GradientStart { gradient, rate: gradient_rate } =
-            constraint::hold(body, kept, given, &placed.key, reporter)?;
-        let pin: Option<Vec3> = placed.value.pin.as_ref().map(si);
-        let velocity = center_velocity(placed, pin.map(|pin| -(gradient_rate * pin)), reporter)?;
-        let place = Placement { position: si(&placed.value.position), gradient };
+            constraint::hold(body, kept, given, &center.placed.key, reporter)?;
+        let velocity = center.velocity(center.pin.map(|pin| -(gradient_rate * pin)), reporter)?;
+        let place = Placement { position: center.position, gradient };
         Some((place, Velocity { velocity, gradient_rate }))
     }
+}
+
+/// The centre of mass at the start.
+struct Center<'a> {
+    placed: &'a Placed<Body>,
+    is_copy: bool,
+    position: Vec3,
+    /// As it is given.
+    given: Vec3,
+    pin: Option<Vec3>,
 }
 
 /// F Ġ, F = P G⁻¹: the rate of a body that follows its contraction and keeps its elastic strain.
@@ -111,6 +146,13 @@ pub(super) fn placement(start: &Start) -> Placement {
         Start::Rigid(start) => Placement { position: start.position, gradient: start.orientation.rotation() },
         Start::Affine(placement, _) | Start::Contractile(placement, ..) => *placement,
     }
+}
+
+/// A bound on |P X|/|X|: √‖PᵀP‖_∞.
+pub(super) fn stretch(gradient: &Mat3) -> f64 {
+    let square = gradient.tr_mul(gradient);
+    let sums = square.row_iter().map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>());
+    sums.fold(0.0, f64::max).sqrt()
 }
 
 /// A matrix from its rows, in SI units.
@@ -170,24 +212,37 @@ pub(super) fn flaw(matrix: &Mat3) -> Option<String> {
     (!inverts).then(|| "it cannot be told from a matrix that has no inverse".to_owned())
 }
 
-/// ṗ₀ as given, or as it follows from the pin; notes a given one that does not agree with the pin.
-fn center_velocity(placed: &Placed<Body>, follows: Option<Vec3>, reporter: &mut Reporter<'_>) -> Option<Vec3> {
-    let velocity: Vec3 = si(&placed.value.velocity);
-    let Some(follows) = follows else { return Some(velocity) };
-    let given = placed.key.key("velocity");
-    let written = given.is_written(&reporter.document.root);
-    // Numbers written with ten digits agree.
-    const AGREEMENT: f64 = 1e-9;
-    if written && (velocity - follows).norm() > AGREEMENT * follows.norm().max(velocity.norm()) {
-        let [x, y, z] = follows.into();
-        let (what, keys) = match placed.value.deformable() {
-            None => ("spin", "`angular_velocity`"),
-            Some(_) => ("rate", "`gradient_rate` or `angular_velocity`"),
-        };
-        let message =
-            format!("the pin does not allow it: with this {what} the centre of mass moves at [{x:e}, {y:e}, {z:e}]");
-        reporter.note(&given, message, format!("leave `velocity` out: it follows from {keys}"));
-        return None;
+impl<'a> Center<'a> {
+    fn of(placed: &'a Placed<Body>, copy: Option<&CopyPlace>) -> Self {
+        let (mut position, mut given): (Vec3, Vec3) = (si(&placed.value.position), si(&placed.value.velocity));
+        if let Some(place) = copy {
+            position += place.displacement;
+            given += place.velocity;
+        }
+        Self { placed, is_copy: copy.is_some(), position, given, pin: placed.value.pin.as_ref().map(si) }
     }
-    Some(follows)
+
+    /// ṗ₀ as given, or as it follows from the pin; notes a given one that does not agree with the pin.
+    fn velocity(&self, follows: Option<Vec3>, reporter: &mut Reporter<'_>) -> Option<Vec3> {
+        let Self { placed, is_copy, given: velocity, .. } = *self;
+        let Some(follows) = follows else { return Some(velocity) };
+        let given = placed.key.key("velocity");
+        // Of a body with copies its own velocity is looked at: that of each copy follows from how it is turned.
+        let written = !is_copy && given.is_written(&reporter.document.root);
+        // Numbers written with ten digits agree.
+        const AGREEMENT: f64 = 1e-9;
+        if written && (velocity - follows).norm() > AGREEMENT * follows.norm().max(velocity.norm()) {
+            let [x, y, z] = follows.into();
+            let (what, keys) = match placed.value.deformable() {
+                None => ("spin", "`angular_velocity`"),
+                Some(_) => ("rate", "`gradient_rate` or `angular_velocity`"),
+            };
+            let message = format!(
+                "the pin does not allow it: with this {what} the centre of mass moves at [{x:e}, {y:e}, {z:e}]"
+            );
+            reporter.note(&given, message, format!("leave `velocity` out: it follows from {keys}"));
+            return None;
+        }
+        Some(follows)
+    }
 }

@@ -23,6 +23,8 @@ pub(super) fn ends(supports: &Named, bodies: &Named, reporter: &mut Reporter<'_>
         } else if bodies.lacks(name) {
             let known = bodies.iter().chain(supports.iter()).chain([SPACE]);
             Some((format!("there is no body or support \"{name}\""), suggest::fix(name, known, "one of")))
+        } else if let Some(fault) = bodies.many(name) {
+            Some(fault)
         } else if end.is_twice() {
             let help = "name two different bodies, or a body and \"space\"";
             Some((format!("both ends are at the body \"{name}\": the joint closes nothing"), help.to_owned()))

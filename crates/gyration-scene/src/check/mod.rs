@@ -4,18 +4,22 @@
 //! walk. Each section, support, contact and body that passes is deserialized into a [`PartialScene`] and goes on to
 //! `values` and to `assemble`, so that a misspelt key in one body does not hide a missing support of another.
 
+mod copies;
 mod ends;
 mod fixed;
 mod joints;
 mod named;
 mod partial;
+mod placed;
 mod rule;
 mod signal_help;
 mod structure;
 mod values;
 
+pub(crate) use copies::{Copies, CopyNames};
 pub(crate) use joints::SPACE;
-pub(crate) use partial::{PartialScene, Placed};
+pub(crate) use partial::PartialScene;
+pub(crate) use placed::Placed;
 pub(crate) use rule::{RULES, Rules};
 pub(crate) use structure::structure;
 pub(crate) use values::{direction, values};

@@ -1,6 +1,7 @@
 //! The names of what a section of the file has, well formed or not.
 
-use super::Reporter;
+use super::copies::{Copies, CopyNames};
+use super::{PartialScene, Reporter};
 use crate::key::{Key, is_name};
 use crate::tree::Node;
 use std::collections::BTreeSet;
@@ -10,6 +11,8 @@ pub(super) struct Named {
     pub(super) names: BTreeSet<String>,
     /// Whether each of them has one: a name that cannot be read may be any.
     pub(super) are_known: bool,
+    /// Those of copies.
+    copies: CopyNames,
 }
 
 impl Named {
@@ -18,7 +21,7 @@ impl Named {
         let key = Key::root().key(section);
         let document = reporter.document;
         let items = document.root.get(section).map(Node::items).unwrap_or_default();
-        let mut named = Self { names: BTreeSet::new(), are_known: true };
+        let mut named = Self { names: BTreeSet::new(), are_known: true, copies: CopyNames::default() };
         for (index, item) in items.iter().enumerate() {
             let Some((node, name)) = item.get("name").and_then(|node| Some((node, node.text()?))) else {
                 named.are_known = false;
@@ -37,14 +40,34 @@ impl Named {
         named
     }
 
+    /// Those of the bodies of a scene, with their copies; notes a body that is called as a copy of another is.
+    pub(super) fn of_bodies(partial: &PartialScene, reporter: &mut Reporter<'_>) -> Self {
+        let mut named = Self::of("body", reporter);
+        named.copies = partial.copy_names.clone();
+        named.are_known &= !partial.copies.contains(&Copies::Unknown);
+        for body in partial.bodies.iter().filter(|body| named.copies.find(&body.value.name).is_some()) {
+            let name = &body.value.name;
+            let message = format!("\"{name}\" is the name of a copy of another body");
+            reporter.note(&body.key.key("name"), message, "give each a name of its own");
+        }
+        named
+    }
+
     /// Whether one has this name.
     pub(super) fn has(&self, name: &str) -> bool {
-        self.names.contains(name)
+        self.names.contains(name) || self.copies.find(name).is_some()
     }
 
     /// Whether nothing has this name.
     pub(super) fn lacks(&self, name: &str) -> bool {
-        self.are_known && !self.names.contains(name)
+        self.are_known && !self.has(name)
+    }
+
+    /// What is wrong with a name that must be of one, and the fix, where it is of all copies of a body.
+    pub(super) fn many(&self, name: &str) -> Option<(String, String)> {
+        let last = self.copies.count(name)? - 1;
+        let message = format!("\"{name}\" is the group of the copies \"{name}-0\" to \"{name}-{last}\"");
+        Some((message, format!("name one of them, \"{name}-0\"")))
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = &str> + Clone {

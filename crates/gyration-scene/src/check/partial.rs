@@ -1,23 +1,19 @@
 //! The parts of a scene that are well formed, each with its place; the others have been noted.
 
+use super::Reporter;
+use super::copies::{BodyNumbers, Copies, CopyNames};
+use super::placed::Placed;
 use crate::document::{Diagnostics, Document};
 use crate::file::{
     Body, Bond, Contact, Fluid, Joint, Lattice, Record, SceneFile, Solver, SpringBetween, Support, Time, World,
 };
 use crate::key::Key;
+use crate::places::MOST_COPIES;
 use crate::quantity::AnyQuantity;
 use crate::tree::{Node, Value};
 use serde::de::DeserializeOwned;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// A part of the file and where it stands.
-#[derive(Debug, Clone)]
-pub(crate) struct Placed<T> {
-    pub(crate) key: Key,
-    /// Its place among all that the file has of its kind, well formed or not.
-    pub(crate) number: usize,
-    pub(crate) value: T,
-}
+use std::path::Path;
 
 /// The words by which contacts name a body.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -55,6 +51,12 @@ pub(crate) struct PartialScene {
     pub(crate) bodies: Vec<Placed<Body>>,
     /// What every body of the file is called, well formed or not.
     pub(crate) roll: Vec<BodyWords>,
+    /// The copies of every body of the file.
+    pub(crate) copies: Vec<Copies>,
+    /// The bodies of the model of every body of the file.
+    pub(crate) numbers: BodyNumbers,
+    /// Names of copies.
+    pub(crate) copy_names: CopyNames,
     pub(crate) springs: Vec<Placed<SpringBetween>>,
     pub(crate) bonds: Vec<Placed<Bond>>,
     pub(crate) joints: Vec<Placed<Joint>>,
@@ -65,8 +67,14 @@ pub(crate) struct PartialScene {
 }
 
 impl PartialScene {
-    /// Takes from the document what nothing has been found against.
-    pub(crate) fn new(document: &Document, diagnostics: &mut Diagnostics) -> Self {
+    /// Takes from the document what nothing has been found against; tables of places are looked for in a folder.
+    pub(crate) fn new(document: &Document, base: &Path, diagnostics: &mut Diagnostics) -> Self {
+        let mut this = Self::take(document, diagnostics);
+        this.count_copies(base, &mut Reporter { document, diagnostics });
+        this
+    }
+
+    fn take(document: &Document, diagnostics: &mut Diagnostics) -> Self {
         let dirty = diagnostics.iter().map(|diagnostic| diagnostic.key.clone()).collect();
         let mut taker = Taker { root: &document.root, dirty, diagnostics };
         Self {
@@ -79,6 +87,9 @@ impl PartialScene {
             contacts: taker.items("contact"),
             bodies: taker.items("body"),
             roll: document.root.get("body").map(Node::items).unwrap_or_default().iter().map(BodyWords::of).collect(),
+            copies: Vec::new(),
+            numbers: BodyNumbers::default(),
+            copy_names: CopyNames::default(),
             springs: taker.items("spring"),
             bonds: taker.items("bond"),
             joints: taker.items("joint"),
@@ -89,6 +100,33 @@ impl PartialScene {
                 Some(_) => taker.section("constants"),
             },
         }
+    }
+
+    /// Finds the copies of all bodies; notes what is wrong with them.
+    fn count_copies(&mut self, base: &Path, reporter: &mut Reporter<'_>) {
+        let written = reporter.document.root.get("body").map(Node::items).unwrap_or_default();
+        let is_written = |body: &Node| if body.get("copies").is_some() { Copies::Unknown } else { Copies::Alone };
+        self.copies = written.iter().map(is_written).collect();
+        let in_lattice = reporter.document.root.get("lattice").is_some();
+        let mut total = 0;
+        for body in &self.bodies {
+            let copies = Copies::of(body, base, in_lattice, reporter);
+            total += copies.count();
+            self.copies[body.number] = if total > MOST_COPIES && copies != Copies::Alone {
+                total -= copies.count();
+                let message = format!("with these there are more than {MOST_COPIES} bodies");
+                reporter.note(&body.key.key("copies"), message, "write fewer");
+                Copies::Unknown
+            } else {
+                copies
+            };
+        }
+        for (words, copies) in self.roll.iter_mut().zip(&self.copies) {
+            words.are_known &= *copies != Copies::Unknown;
+        }
+        self.numbers = BodyNumbers::of(self.copies.iter());
+        let copied = self.bodies.iter().filter(|body| self.copies[body.number] != Copies::Alone);
+        self.copy_names = CopyNames::of(copied.map(|body| (body.value.name.as_str(), self.numbers.range(body.number))));
     }
 
     /// The whole file, if all of it is well formed.

@@ -20,7 +20,7 @@ const MOST_SAMPLES: f64 = 1e8;
 
 /// Notes what is wrong with the values of a partial scene, its bodies apart.
 pub(crate) fn values(partial: &PartialScene, reporter: &mut Reporter<'_>) {
-    let (supports, bodies) = (Named::of("support", reporter), Named::of("body", reporter));
+    let (supports, bodies) = (Named::of("support", reporter), Named::of_bodies(partial, reporter));
     if let Some(time) = &partial.time {
         samples(time, reporter);
     }
@@ -68,6 +68,8 @@ fn ends(section: &str, known: &Named, reporter: &mut Reporter<'_>) {
         let name = end.name;
         if known.lacks(name) {
             Some((format!("there is no body \"{name}\""), suggest::fix(name, known.iter(), "body")))
+        } else if let Some(fault) = known.many(name) {
+            Some(fault)
         } else if end.is_twice() && !leads_away(end.item) {
             let help = "name two different bodies, or in a lattice the `cell` of the second; to a point of space \
                         leads a `spring` of the body";
@@ -97,7 +99,7 @@ fn partners(supports: &Named, bodies: &Named, roll: &[BodyWords], reporter: &mut
             if !is_name(word) {
                 let help = "use letters A to Z and a to z, digits, `_` and `-`";
                 reporter.diagnostics.at(node.span, &key, format!("\"{word}\" is not a name"), help);
-            } else if bodies.names.contains(word) {
+            } else if bodies.has(word) {
                 let message = format!("\"{word}\" is the name of another body, which is a group of its own");
                 reporter.diagnostics.at(node.span, &key, message, "give the group another name");
             }
@@ -123,12 +125,14 @@ fn partners(supports: &Named, bodies: &Named, roll: &[BodyWords], reporter: &mut
             reporter.diagnostics.at(between.span, &key.key("between"), format!("it stands beside `{short}`"), help);
         }
         for (end, node) in between.items().iter().enumerate() {
-            if let Some(name) = node.text().filter(|name| supports.names.contains(*name) && moving.contains(*name)) {
+            if let Some(name) =
+                node.text().filter(|name| supports.has(name) && (moving.contains(*name) || bodies.has(name)))
+            {
                 let message = format!("\"{name}\" is a support, and a body or a group too");
                 let help = "give the support another name";
                 reporter.diagnostics.at(node.span, &key.key("between").index(end), message, help);
             }
-            if let Some(name) = node.text().filter(|name| are_known && !known.contains(*name)) {
+            if let Some(name) = node.text().filter(|name| are_known && !known.contains(*name) && !bodies.has(name)) {
                 let help = suggest::fix(name, known.iter().copied(), "one of");
                 let message = format!("there is no body, group or support \"{name}\"");
                 reporter.diagnostics.at(node.span, &key.key("between").index(end), message, help);

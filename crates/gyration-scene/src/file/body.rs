@@ -1,6 +1,8 @@
 //! `[[body]]`: what moves.
 
-use super::{Affine, Contractile, Entry, Inclusion, Keep, LinearFriction, Motion, OneOrMany, Orientation, Shape};
+use super::{
+    Affine, Contractile, Copies, Entry, Inclusion, Keep, LinearFriction, Motion, OneOrMany, Orientation, Shape,
+};
 use crate::quantity::{
     AngularVelocity, AnyQuantity, Density, EulerMoment, GradientRate, Length, Mass, NonNegative, Positive,
     SpringDamping, Stiffness, Velocity,
@@ -18,6 +20,9 @@ pub struct Body {
     /// Words by which contacts name many bodies; its own name is one of them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub group: Option<OneOrMany<String>>,
+    /// Many equal bodies in its place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub copies: Option<Box<Copies>>,
     /// Its reference shape; may be absent with `mass_properties`, the body then has no surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<Shape>,

@@ -137,7 +137,10 @@ fn step<'a>(at: &'a mut Node, word: &Word<'_>, next: Option<&Word<'_>>) -> Resul
                     let help = match (items.len(), names.is_empty()) {
                         (0, _) => "the array is empty".to_owned(),
                         (count, true) => format!("indices run from 0 to {}", count - 1),
-                        _ => suggest::fix(word.name, names.iter().copied(), "names"),
+                        _ => match copied(items, word.name) {
+                            Some(name) => format!("copies are set together: write `body.{name}`"),
+                            None => suggest::fix(word.name, names.iter().copied(), "names"),
+                        },
                     };
                     fault(format!("no item \"{}\" in the array", word.name), help)
                 }
@@ -148,4 +151,12 @@ fn step<'a>(at: &'a mut Node, word: &Word<'_>, next: Option<&Word<'_>>) -> Resul
             fault(message, "set the value above it as a whole".into())
         }
     }
+}
+
+/// The name of the body, with copies, of one of which this is the name.
+fn copied<'a>(items: &'a [Node], name: &str) -> Option<&'a str> {
+    let (of, number) = name.rsplit_once('-')?;
+    let body =
+        items.iter().filter(|item| item.get("copies").is_some()).find_map(|item| name_of(item).filter(|it| *it == of));
+    body.filter(|_| number.parse::<usize>().is_ok())
 }
