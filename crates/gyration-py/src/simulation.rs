@@ -31,11 +31,19 @@ pub struct Simulation {
     arrays: Arrays,
 }
 
+/// Names that a message tells.
+const MOST_NAMES: usize = 20;
+
 impl Simulation {
     /// The index of a body given by name or number.
     fn index(&self, body: &Bound<'_, PyAny>) -> PyResult<usize> {
         let model = self.stepper.model();
-        let names = || model.names().collect::<Vec<_>>().join(", ");
+        let names = || {
+            let all = model.bodies.len();
+            let told: Vec<&str> = model.names().take(MOST_NAMES).collect();
+            let more = if all > told.len() { format!(", … ({all} in all)") } else { String::new() };
+            told.join(", ") + &more
+        };
         if let Ok(name) = body.extract::<String>() {
             return model.find_body(&name).ok_or_else(|| {
                 errors::arguments(format!("the scene has no body {name:?}\n  fix: write one of {}", names()))
