@@ -10,7 +10,7 @@ mod differences;
 pub(crate) mod pairs;
 pub(crate) mod surfaces;
 
-use self::describe::{describe_solid_support, describe_support};
+use self::describe::{describe_solid_support, describe_support, sum_of_places};
 pub use self::differences::differences;
 pub use self::pairs::pairs_csv;
 use self::surfaces::Surfaces;
@@ -241,6 +241,9 @@ impl<'a> Job<'a> {
             attributes.insert("solid_supports".into(), described.collect());
         }
         attributes.insert("gravity".into(), json!(self.model.gravity.as_slice()));
+        if let Some(sum) = sum_of_places(scene) {
+            attributes.insert("places".into(), sum);
+        }
         let warnings = self.remarks().warnings;
         if !warnings.is_empty() {
             attributes.insert("warnings".into(), json!(warnings));
@@ -250,15 +253,15 @@ impl<'a> Job<'a> {
 }
 
 /// The resolved scene without what may differ between a run and its resumption, and the bodies that it led to: a mesh
-/// file may have changed behind its name.
+/// or a table of places may have changed behind its name.
 fn comparable(attributes: &Attributes) -> Option<(Value, Value)> {
     let mut resolved = attributes.get("resolved")?.clone();
     if let Some(solver) = resolved.get_mut("solver").and_then(Value::as_object_mut) {
         solver.remove("max_wall_time");
         solver.remove("threads");
     }
-    let bodies = [attributes.get("bodies")?, attributes.get("outlines").unwrap_or(&Value::Null)];
-    Some((resolved, bodies.into_iter().cloned().collect()))
+    let others = ["outlines", "places"].map(|key| attributes.get(key).unwrap_or(&Value::Null));
+    Some((resolved, std::iter::once(attributes.get("bodies")?).chain(others).cloned().collect()))
 }
 
 /// Wireframe and silhouette of a solid, relative to the centre of mass.
