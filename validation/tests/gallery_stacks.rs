@@ -38,8 +38,8 @@ fn a_ball_knocks_a_brick_out_of_a_wall() {
 
 /// The scene `stack` with the uppermost `bricks`, each beyond the one below by `share` of L/2k.
 fn stack(share: f64, bricks: usize) -> String {
-    let text = gyration_scene::gallery_scene("stack").expect("a scene of the gallery");
-    let laws = text.split("\n[[body]]").next().expect("the laws");
+    let text = gyration_scene::gallery_scene("stack").unwrap();
+    let laws = text.split("\n[[body]]").next().unwrap();
     let bodies = (0..bricks).map(|below| {
         let place: f64 = (1..=below).map(|below| share * 0.05 / (bricks - below) as f64).sum();
         let height = 0.0151 + 0.030085 * below as f64;
