@@ -25,6 +25,8 @@ pub use gyration::fluid::unsteady::vibration::Vibration;
 
 /// How many triangles may be asked for.
 pub const TRIANGLES_ALLOWED: RangeInclusive<u32> = 80..=10_000;
+/// Names of bodies that a message tells.
+const MOST_NAMES: usize = 20;
 /// What rows and columns of the matrix are.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -121,8 +123,9 @@ impl Resistances {
         let named = |(index, _): &(usize, &Arc<Body>)| only.is_none_or(|name| model.name(*index) == name);
         let bodies: Vec<(usize, &Arc<Body>)> = model.bodies.iter().enumerate().filter(named).collect();
         if bodies.is_empty() {
-            let names: Vec<&str> = model.names().collect();
-            let fix = format!("write one of {}, or the scene alone", names.join(", "));
+            let names: Vec<&str> = model.names().take(MOST_NAMES).collect();
+            let more = if model.bodies.len() > names.len() { ", …" } else { "" };
+            let fix = format!("write one of {}{more}, or the scene alone", names.join(", "));
             return Err(NoSuchResistance::new(format!("the scene has no body {:?}", only.unwrap_or_default()), fix));
         }
         let request = ResistanceRequest::of(scene, options)?;
