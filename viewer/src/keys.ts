@@ -43,6 +43,7 @@ export function keysOf(player: Player, transport: Transport, picture: Picture, p
     key("t T", "T", "trails", () => toolbar.toggle("trails")),
     key("o O", "O", "onion skins", () => toolbar.toggle("ghosts")),
     key("g G", "G", "supports", () => toolbar.toggle("supports")),
+    key("j J", "J", "joints, springs, bonds, pins", () => toolbar.toggle("joints")),
     key("p P", "P", "next panel", () => page.tab()),
     key("d D", "D", "dark or light", () => page.theme()),
     key("?", "?", "this help", () => page.help()),

@@ -26,6 +26,7 @@ export class Picture {
     trails: false,
     ghosts: false,
     supports: true,
+    joints: true,
     follow: null,
   };
   private readonly canvas = h("canvas", { "aria-label": "the bodies in space", tabindex: 0 });
@@ -78,7 +79,7 @@ export class Picture {
     stage.expect(recording.header.bodies.length);
     this.view = new SceneView(stage, recording, this.shown, again ? before.framing : null);
     if (!again) stage.look();
-    this.toolbar.load(recording, this.view.colors);
+    this.toolbar.load(recording, this.view);
     this.scales.load(classesOf(recording.header));
     this.restyle();
   }
@@ -116,7 +117,12 @@ export class Picture {
   /** After a change of theme. */
   restyle(): void {
     this.stage?.background(themeColor("--sky"), Number(themeColor("--skylight")));
-    this.view?.supports.paint(themeColor("--ground"), themeColor("--line"), Number(themeColor("--shadow")));
+    this.view?.paint({
+      ground: themeColor("--ground"),
+      line: themeColor("--line"),
+      shadow: Number(themeColor("--shadow")),
+      mark: themeColor("--mark"),
+    });
     this.request(null);
   }
 

@@ -112,7 +112,7 @@ export interface Header {
   tolerances?: { rtol: number; atol: number };
   bodies: Body[];
   supports: Support[];
-  solid_supports?: SolidSupport[];
+  solid_supports?: SolidSupport[] | null;
   surfaces: { points: number; triangles: number }[];
   arrays: ArraySpec[];
   /** CSV name, array, place in its row. */

@@ -2,11 +2,11 @@
 
 import type { Recording } from "../data/recording";
 import { counted } from "../math/format";
-import type { Coloring, Colors } from "../view/coloring";
-import type { Shown } from "../view/scene";
+import type { Coloring } from "../view/coloring";
+import type { SceneView, Shown } from "../view/scene";
 import { h, type Icon, iconButton, pressed } from "./dom";
 
-type Toggle = "forces" | "velocity" | "axes" | "trails" | "ghosts" | "supports";
+type Toggle = "forces" | "velocity" | "axes" | "trails" | "ghosts" | "supports" | "joints";
 
 const TOGGLES: [Toggle, Icon, string, string][] = [
   ["forces", "force", "Contact forces", "C"],
@@ -15,6 +15,7 @@ const TOGGLES: [Toggle, Icon, string, string][] = [
   ["trails", "trail", "Trails of the centres", "T"],
   ["ghosts", "ghosts", "Onion skins", "O"],
   ["supports", "supports", "Supports", "G"],
+  ["joints", "joints", "Joints, springs, bonds, pins", "J"],
 ];
 
 const COLORINGS: [Coloring, string][] = [
@@ -72,7 +73,7 @@ export class Toolbar {
   }
 
   /** Another recording: its bodies, and the colourings that it allows. */
-  load(recording: Recording, colors: Colors): void {
+  load(recording: Recording, { colors, isJoined }: Pick<SceneView, "colors" | "isJoined">): void {
     const { bodies } = recording.header;
     COLORINGS.forEach(([coloring, label], index) => {
       const reason = colors.absent(coloring);
@@ -86,6 +87,7 @@ export class Toolbar {
     );
     this.body.hidden = bodies.length < 2;
     this.buttons.get("axes")!.disabled = bodies.every((body) => body.kind === "rigid");
+    this.buttons.get("joints")!.disabled = !isJoined;
     if (this.chosen !== null && this.chosen >= bodies.length) this.choose(null);
     if (this.shown.follow !== null && this.shown.follow >= bodies.length) this.shown.follow = null;
     this.refresh();

@@ -78,3 +78,10 @@ export function ghostMaterial(): ShaderMaterial {
   made.depthWrite = false;
   return made;
 }
+
+/** Of marks: evenly lit, drawn after the bodies. */
+export function markMaterial(): ShaderMaterial {
+  const made = material(1, 0);
+  made.transparent = true;
+  return made;
+}

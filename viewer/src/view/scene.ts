@@ -10,6 +10,7 @@ import { BodyLayer } from "./bodies";
 import { type Coloring, Colors } from "./coloring";
 import { type Framing, framed } from "./framing";
 import { GhostLayer } from "./ghosts";
+import { JointLayer } from "./joints";
 import { LIGHT } from "./material";
 import { OutlineLayer } from "./outlines";
 import { directionsFor } from "./quality";
@@ -29,6 +30,8 @@ export interface Shown {
   trails: boolean;
   ghosts: boolean;
   supports: boolean;
+  /** Joints, springs, bonds and pins. */
+  joints: boolean;
   /** The body that the camera goes with. */
   follow: number | null;
 }
@@ -41,6 +44,7 @@ export class SceneView {
   private bodies: BodyLayer;
   private readonly outlines: OutlineLayer;
   private readonly springs: SpringLayer;
+  private readonly joints: JointLayer;
   private readonly vectors: VectorLayer;
   private readonly trails: TrailLayer;
   private ghosts: GhostLayer;
@@ -65,6 +69,7 @@ export class SceneView {
     this.supports = new SupportLayer(recording);
     this.solids = new SolidLayer(recording, stage.quality);
     this.springs = new SpringLayer(recording);
+    this.joints = new JointLayer(recording);
     this.vectors = new VectorLayer(recording);
     this.trails = new TrailLayer(recording);
     this.ghosts = new GhostLayer(recording, stage.quality);
@@ -76,7 +81,7 @@ export class SceneView {
       this.outlines.group,
       this.vectors.group,
     );
-    stage.root.add(this.springs.lines, this.trails.lines, this.ghosts.group);
+    stage.root.add(this.springs.group, this.joints.group, this.trails.lines, this.ghosts.group);
     this.cast();
     this.fit(kept ?? framed(recording));
     // A run that starts again is looked at as the one before.
@@ -127,7 +132,10 @@ export class SceneView {
     this.bodies.paint(this.colors.at(shown.coloring, frame));
     this.outlines.place(frame);
     this.outlines.paint(this.colors.at(shown.coloring, frame));
+    this.springs.group.visible = shown.joints;
     this.springs.place(frame);
+    this.joints.group.visible = shown.joints;
+    this.joints.place(frame);
     this.supports.group.visible = shown.supports;
     this.solids.group.visible = shown.supports;
     this.solids.place(frame.time);
@@ -139,6 +147,18 @@ export class SceneView {
     this.ghosts.group.visible = shown.ghosts;
     this.ghosts.place();
     this.follow();
+  }
+
+  /** Colours what takes them from the theme. */
+  paint(theme: { ground: string; line: string; shadow: number; mark: string }): void {
+    this.supports.paint(theme.ground, theme.line, theme.shadow);
+    this.springs.paint(theme.mark);
+    this.joints.paint(theme.mark);
+  }
+
+  /** Whether there are joints, springs, bonds or pins. */
+  get isJoined(): boolean {
+    return this.springs.count + this.joints.count > 0;
   }
 
   /** The body under a point of the canvas, from −1 to 1. */
@@ -166,6 +186,7 @@ export class SceneView {
     this.supports.dispose();
     this.solids.dispose();
     this.springs.dispose();
+    this.joints.dispose();
     this.vectors.dispose();
     this.trails.dispose();
     this.ghosts.dispose();

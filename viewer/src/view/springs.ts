@@ -1,13 +1,20 @@
-// Springs as zigzags between the points that they join.
+// Springs as zigzags between the points that they join, bonds as straight lines.
 
-import { BufferAttribute, BufferGeometry, DynamicDrawUsage, LineBasicMaterial, LineSegments } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DynamicDrawUsage,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+} from "three";
 import type { Frame } from "../data/frame";
 import type { Vec3 } from "../data/header";
 import type { Recording } from "../data/recording";
-import { type Spring, type SpringEnd, springsOf } from "../data/springs";
+import { bondsOf, type Spring, springsOf } from "../data/springs";
 import { norm } from "../math/mat3";
+import { LinkLines, placed } from "./places";
 
-const COLOR = "#5f6773";
 /** Teeth of a spring. */
 const TEETH = 9;
 /** The part of a spring at each end that is straight. */
@@ -16,7 +23,10 @@ const STRAIGHT = 0.12;
 const WIDTH = 0.09;
 
 export class SpringLayer {
-  readonly lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: COLOR }));
+  readonly group = new Group();
+  private readonly material = new LineBasicMaterial();
+  private readonly lines = new LineSegments(new BufferGeometry(), this.material);
+  private readonly bonds: LinkLines;
   private readonly springs: Spring[];
   private readonly position: BufferAttribute;
   /** Half the width of each [m]. */
@@ -36,9 +46,21 @@ export class SpringLayer {
     this.lines.geometry.setIndex(index);
     this.lines.frustumCulled = false;
     this.lines.visible = count > 0;
+    this.bonds = new LinkLines(bondsOf(recording.header), this.material);
+    this.group.add(this.lines, this.bonds.lines);
+  }
+
+  /** Springs and bonds. */
+  get count(): number {
+    return this.springs.length + this.bonds.count;
+  }
+
+  paint(color: string): void {
+    this.material.color.set(color);
   }
 
   place(frame: Frame): void {
+    this.bonds.place(frame);
     if (!this.lines.visible) return;
     this.springs.forEach(({ ends }, spring) => {
       const [from, to] = ends.map((end) => placed(end, frame));
@@ -51,20 +73,9 @@ export class SpringLayer {
 
   dispose(): void {
     this.lines.geometry.dispose();
-    (this.lines.material as LineBasicMaterial).dispose();
+    this.bonds.dispose();
+    this.material.dispose();
   }
-}
-
-/** Where an end is: p = p₀ + P X, of an image R farther, or the point of space. */
-export function placed(
-  { body, at, shift = [0, 0, 0] }: SpringEnd,
-  { position: p, gradient: P }: Frame,
-): Vec3 {
-  if (body === null) return at;
-  return [0, 1, 2].map((axis) => {
-    const row = 9 * body + 3 * axis;
-    return shift[axis] + p[3 * body + axis] + P[row] * at[0] + P[row + 1] * at[1] + P[row + 2] * at[2];
-  }) as Vec3;
 }
 
 /** The corners of a zigzag of a half width, both ends among them. */

@@ -3,7 +3,8 @@
 import { describe, expect, it } from "vitest";
 import { Frame } from "../../src/data/frame";
 import { springsOf } from "../../src/data/springs";
-import { placed, zigzag } from "../../src/view/springs";
+import { placed } from "../../src/view/places";
+import { zigzag } from "../../src/view/springs";
 import { bodyNamed, headerOf } from "./made";
 
 const resolved = {
