@@ -6,17 +6,19 @@ import {
   Color,
   Group,
   type InstancedMesh,
+  type Material,
   type Raycaster,
-  type ShaderMaterial,
   SRGBColorSpace,
 } from "three";
 import type { Frame } from "../data/frame";
 import type { Recording, Surface } from "../data/recording";
+import { shapesIn } from "../data/shapes";
 import type { Rgb } from "../math/colors";
 import { coarsened } from "./coarse";
 import { COARSE_CREASE, CREASE, shaded } from "./crease";
 import { instancesOf, matricesOf, moved } from "./instances";
 import { bodyMaterial } from "./material";
+import { patternOf } from "./patterns";
 import type { Quality } from "./quality";
 
 /** Bodies that share a surface. */
@@ -28,12 +30,15 @@ interface Shared {
 export class BodyLayer {
   readonly group = new Group();
   private readonly shared: Shared[] = [];
-  private readonly material: ShaderMaterial;
 
   constructor(recording: Recording, { triangles, crowd }: Quality) {
-    this.material = bodyMaterial(recording.header.bodies.length > crowd);
+    const { header } = recording;
+    const shapeOf = shapesIn(header);
     for (const [bodies, geometry] of geometries(recording, triangles)) {
-      const mesh = instancesOf(geometry, this.material, bodies.length);
+      const { name, surface } = header.bodies[bodies[0]];
+      const points = (surface !== null && recording.surfaces[surface]?.points) || [];
+      const material = bodyMaterial(header.bodies.length > crowd, patternOf(shapeOf(name), points));
+      const mesh = instancesOf(geometry, material, bodies.length);
       this.shared.push({ mesh, bodies });
       this.group.add(mesh);
     }
@@ -81,9 +86,9 @@ export class BodyLayer {
   dispose(): void {
     for (const { mesh } of this.shared) {
       mesh.geometry.dispose();
+      (mesh.material as Material).dispose();
       mesh.dispose();
     }
-    this.material.dispose();
   }
 }
 

@@ -6,9 +6,10 @@
 // Light. A sky that is bright above and dim below, a key light, and a weak one from the side of the camera.
 //
 // Octants. The eight octants about the centre of mass, in the axes of the body, differ a little in shade, so that a ball
-// can be seen to turn and a shear to shear.
+// can be seen to turn and a shear to shear. Over them lies the pattern of the shape (`view/patterns.ts`).
 
 import { ShaderMaterial, Vector3 } from "three";
+import { MARKED, type Pattern } from "./patterns";
 
 const VERTEX = /* glsl */ `
 varying vec3 vReference, vNormal, vColor, vView;
@@ -25,16 +26,34 @@ void main() {
 	gl_Position = projectionMatrix * ( viewMatrix * place );
 }`;
 
+/** Takes the place of what a pattern marks. */
+const PATTERN = "// pattern";
+
 const FRAGMENT = /* glsl */ `
 uniform vec3 up, key, fill;
 uniform float sky, opacity, contrast;
 varying vec3 vReference, vNormal, vColor, vView;
+#ifdef PAINTED
+uniform vec3 middle, halfSides;
+// An edge a pixel wide.
+float within( float inside, vec3 q ) {
+	vec3 pixel = fwidth( q );
+	float wide = max( max( pixel.x, pixel.y ), max( pixel.z, 1e-6 ) );
+	return clamp( 0.5 + inside / wide, 0.0, 1.0 );
+}
+${PATTERN}
+#endif
 void main() {
 	vec3 n = normalize( gl_FrontFacing ? vNormal : -vNormal );
 	vec3 color = vColor;
 	#ifndef CROWD
 	vec3 fromPlane = clamp( vReference / max( fwidth( vReference ), vec3( 1e-12 ) ), -0.5, 0.5 );
 	color *= 1.0 + contrast * 8.0 * fromPlane.x * fromPlane.y * fromPlane.z;
+	#ifdef PAINTED
+	// What is dark is marked light, what is light dark.
+	float ink = dot( color, vec3( 0.21, 0.72, 0.07 ) ) < 0.4 ? 1.0 : 0.0;
+	color = mix( color, vec3( ink ), 0.5 * marked( ( vReference - middle ) / max( halfSides, vec3( 1e-12 ) ) ) );
+	#endif
 	#endif
 	vec3 light = sky * mix( vec3( 0.33, 0.34, 0.37 ), vec3( 0.58, 0.59, 0.60 ), 0.5 + 0.5 * dot( n, up ) );
 	light += vec3( 0.46, 0.45, 0.42 ) * max( 0.0, 0.15 + 0.85 * dot( n, key ) );
@@ -64,10 +83,17 @@ function material(opacity: number, contrast: number): ShaderMaterial {
   return made;
 }
 
-/** Of bodies as they are; plainer in a crowd. */
-export function bodyMaterial(crowd: boolean): ShaderMaterial {
+/** Of bodies as they are, with a pattern; plainer in a crowd. */
+export function bodyMaterial(crowd: boolean, { paint, extent }: Pattern): ShaderMaterial {
   const made = material(1, 0.09);
-  if (crowd) made.defines = { CROWD: "" };
+  if (crowd) {
+    made.defines = { CROWD: "" };
+  } else if (paint !== "plain") {
+    made.defines = { PAINTED: "" };
+    made.fragmentShader = FRAGMENT.replace(PATTERN, MARKED[paint]);
+    made.uniforms.middle = { value: new Vector3(...extent.middle) };
+    made.uniforms.halfSides = { value: new Vector3(...extent.half) };
+  }
   return made;
 }
 

@@ -1,12 +1,14 @@
 // Supports with a shape, filled, at their true size, where their motion has carried them.
 
-import { Color, Group, type InstancedMesh, type ShaderMaterial } from "three";
+import { Color, Group, type InstancedMesh, type Material } from "three";
 import type { SolidSupport } from "../data/header";
 import type { Recording } from "../data/recording";
+import { shapesIn } from "../data/shapes";
 import { carriage, placeOf } from "../math/carriage";
 import { geometryOf } from "./bodies";
 import { instancesOf, matricesOf, moved } from "./instances";
 import { bodyMaterial } from "./material";
+import { patternOf } from "./patterns";
 import type { Quality } from "./quality";
 
 /** Supports are grey. */
@@ -20,15 +22,18 @@ interface Drawn {
 export class SolidLayer {
   readonly group = new Group();
   private readonly drawn: Drawn[] = [];
-  private readonly material: ShaderMaterial;
 
   constructor(recording: Recording, { triangles }: Quality) {
-    this.material = bodyMaterial(false);
+    const shapeOf = shapesIn(recording.header);
     const supports = recording.header.solid_supports ?? [];
     for (const support of supports) {
       const surface = support.surface === null ? undefined : recording.surfaces[support.surface];
       if (!surface) continue;
-      const mesh = instancesOf(geometryOf(surface, triangles / supports.length), this.material, 1);
+      const shape = shapeOf(support.name);
+      // A support is no die.
+      const pattern = patternOf(shape === "box" ? null : shape, surface.points);
+      const geometry = geometryOf(surface, triangles / supports.length);
+      const mesh = instancesOf(geometry, bodyMaterial(false, pattern), 1);
       mesh.setColorAt(0, new Color(COLOR));
       this.drawn.push({ support, mesh });
       this.group.add(mesh);
@@ -59,8 +64,8 @@ export class SolidLayer {
   dispose(): void {
     for (const { mesh } of this.drawn) {
       mesh.geometry.dispose();
+      (mesh.material as Material).dispose();
       mesh.dispose();
     }
-    this.material.dispose();
   }
 }
