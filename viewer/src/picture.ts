@@ -62,6 +62,7 @@ export class Picture {
     );
     if (!this.stage) return;
     this.stage.prepare = () => this.prepare();
+    this.stage.covered = () => this.toolbar.element.offsetTop + this.toolbar.element.offsetHeight;
     new ResizeObserver(() => this.stage?.resize()).observe(this.canvas);
     this.listenForClicks();
   }
@@ -78,8 +79,8 @@ export class Picture {
     before?.dispose();
     stage.expect(recording.header.bodies.length);
     this.view = new SceneView(stage, recording, this.shown, again ? before.framing : null);
-    if (!again) stage.look();
     this.toolbar.load(recording, this.view);
+    if (!again) stage.look();
     this.scales.load(classesOf(recording.header));
     this.restyle();
   }

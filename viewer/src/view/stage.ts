@@ -7,7 +7,7 @@ import { Color, Group, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Vec3 } from "../data/header";
 import { across, cross } from "../math/mat3";
-import { corners, type Framing } from "./framing";
+import { type Framing, type Sight, sightOf } from "./framing";
 import { LIGHT } from "./material";
 import { contextOf, type Quality, Thrift } from "./quality";
 
@@ -17,17 +17,16 @@ const FIRST_LOOK = [0.5, 1, 0.42];
 /** Pixels of a crowd, a side, beside those of a few. */
 const CROWD_RATIO = 0.7;
 /** Room around what is framed. */
-const MARGIN = 1.2;
+const MARGIN = 1.12;
+/** The part of the picture's height that buttons above it may take from what is framed. */
+const MOST_COVERED = 0.3;
 /** Where light comes from, in the same directions. */
 const KEY = [-0.5, 0.75, 1.5];
 const FILL = [1, 0.5, 0.25];
 
 /** Before there is anything to look at. */
-const UNIT: Pick<Framing, "box" | "center" | "radius"> = {
-  box: [
-    [-1, -1, -1],
-    [1, 1, 1],
-  ],
+const UNIT: Pick<Framing, "reach" | "center" | "radius"> = {
+  reach: ([x, y, z]) => Math.hypot(x, y, z),
   center: [0, 0, 0],
   radius: 1,
 };
@@ -43,6 +42,8 @@ export class Stage {
   touched = false;
   /** Called before each frame. */
   prepare: () => void = () => {};
+  /** How much of the canvas lies under buttons, from its top [px]. */
+  covered: () => number = () => 0;
   private readonly scene = new Scene();
   private controls: OrbitControls;
   private asked = 0;
@@ -127,26 +128,30 @@ export class Stage {
   /** The first look again. */
   look(): void {
     this.touched = false;
-    const [right, inward, high] = FIRST_LOOK;
-    const back = this.direction([right, inward, this.framing.fromBelow ? -0.6 * high : high]);
-    this.controls.target.set(0, 0, 0);
-    this.camera.position.copy(back.multiplyScalar(this.distanceFor(back)));
-    this.controls.update();
-    this.request();
-  }
-
-  /** How far from the middle of the box the camera must be to see all of it from a direction. */
-  private distanceFor(back: Vector3): number {
+    const [aside, inward, high] = FIRST_LOOK;
+    const back = this.direction([aside, inward, this.framing.fromBelow ? -0.6 * high : high]);
     const right = new Vector3().crossVectors(this.camera.up, back).normalize();
     const above = new Vector3().crossVectors(back, right);
+    const axes = [right, above, back].map((axis) => axis.toArray() as Vec3) as [Vec3, Vec3, Vec3];
     const tall = Math.tan((0.5 * FIELD_OF_VIEW * Math.PI) / 180) / MARGIN;
     const wide = tall * this.camera.aspect;
-    const needed = corners(this.framing.box).map((corner) => {
-      const at = this.root.localToWorld(new Vector3(...corner));
-      const aside = Math.max(Math.abs(at.dot(right)) / wide, Math.abs(at.dot(above)) / tall);
-      return at.dot(back) + aside;
-    });
-    return Math.max(...needed);
+    const free = 1 - 2 * Math.min(MOST_COVERED, this.covered() / Math.max(1, this.canvas.clientHeight));
+    this.stand(sightOf(this.framing, axes, { across: [wide, wide], upright: [tall, free * tall] }));
+  }
+
+  /** Where the camera stands [m]. */
+  get sight(): Sight {
+    const place = (at: Vector3) => this.root.worldToLocal(at.clone()).toArray() as Vec3;
+    return { position: place(this.camera.position), target: place(this.controls.target) };
+  }
+
+  /** Puts the camera where it is to stand [m]. */
+  stand({ position, target }: Sight): void {
+    this.root.updateMatrixWorld();
+    this.controls.target.copy(this.root.localToWorld(new Vector3(...target)));
+    this.camera.position.copy(this.root.localToWorld(new Vector3(...position)));
+    this.controls.update();
+    this.request();
   }
 
   /** Where a point of the scene [m] lies beyond the edge of the picture, from −1 to 1; `null` if it is within. */
