@@ -3,7 +3,7 @@
 import { statSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import { browser, colors, differing, lastTime, opened, pixelsAt } from "./browser";
-import { gallery, recorded, reported } from "./program";
+import { gallery, recorded, reported, text } from "./program";
 
 /** A small window: without a graphics card the time goes with the number of its points. */
 const WINDOW = { viewport: { width: 640, height: 400 } };
@@ -37,6 +37,9 @@ const DRAWN = [
   "wave-gap",
 ];
 
+/** Joints, springs, bonds and pins in the file of a scene. */
+const JOINED = /^(\[\[(joint|spring|bond)\]\]|(pin|spring) =)/m;
+
 /** A tenth of a scene is enough to see it move. */
 function beginning(scene: string, end: number): number {
   return SLOW.has(scene) ? 0.6 * end : Math.min(end, Math.max(0.3, 0.1 * end));
@@ -64,12 +67,19 @@ describe("the report of a gallery scene", () => {
     await page.keyboard.press("g");
     const follows = page.getByRole("button", { name: "Follow the body" });
     if ((await follows.getAttribute("aria-pressed")) === "true") await page.keyboard.press("f");
-    const bodies: number[][] = [];
+    const bodies: Uint8Array[] = [];
     for (const part of [0, 0.37, 0.71, 1]) bodies.push(await pixelsAt(page, part * last, 2, 2));
     const changed = bodies.slice(1).map((pixels) => differing(bodies[0], pixels));
     expect(Math.max(...changed), "pixels that change").toBeGreaterThan(8);
     // Background, and two shades of a point.
     expect(colors(bodies[0]), "colours of the bodies").toBeGreaterThan(2);
+    // What joins bodies is seen, and can be hidden.
+    const joined = page.getByRole("button", { name: "Joints, springs, bonds, pins" });
+    expect(await joined.isEnabled(), "something joins bodies").toBe(JOINED.test(text(scene)));
+    if (await joined.isEnabled()) {
+      await page.keyboard.press("j");
+      expect(differing(bodies[3], await pixelsAt(page, last, 2, 2)), "pixels of joints").toBeGreaterThan(0);
+    }
     expect(problems).toEqual([]);
     console.log(
       `${scene}: first frame after ${took.toFixed(0)} ms, ${(statSync(file).size / 1e6).toFixed(2)} MB`,

@@ -20,15 +20,22 @@ function call(...parts: string[]): string {
   return execFileSync(PROGRAM, parts, { cwd: folder, encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
 }
 
+const SCENES = join(REPOSITORY, "scenes");
+
 /** The names of the gallery, and how long each scene lasts [s]. */
 export function gallery(): [string, number][] {
-  const scenes = join(REPOSITORY, "scenes");
-  return readdirSync(scenes)
+  return readdirSync(SCENES)
     .filter((file) => file.endsWith(".toml"))
     .map((file) => {
-      const end = /^end\s*=\s*([\d.]+)/m.exec(readFileSync(join(scenes, file), "utf8"));
-      return [file.replace(".toml", ""), Number(end?.[1] ?? 1)];
+      const scene = file.replace(".toml", "");
+      const end = /^end\s*=\s*([\d.]+)/m.exec(text(scene));
+      return [scene, Number(end?.[1] ?? 1)];
     });
+}
+
+/** The file of a scene of the gallery. */
+export function text(scene: string): string {
+  return readFileSync(join(SCENES, `${scene}.toml`), "utf8");
 }
 
 let made = 0;
