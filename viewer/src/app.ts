@@ -9,6 +9,7 @@ import type { Recording } from "./data/recording";
 import type { Listener, Progress, Source } from "./data/source";
 import type { Handle } from "./handle";
 import { keysOf } from "./keys";
+import { hashOf, lookIn } from "./link";
 import { Sliders } from "./live/sliders";
 import { RunStatus } from "./live/status";
 import { Picture } from "./picture";
@@ -24,6 +25,9 @@ import { outcomeInWords, summaryPanel } from "./ui/summary";
 import { Tabs } from "./ui/tabs";
 import { switchTheme, watchTheme } from "./ui/theme";
 import { Transport } from "./ui/transport";
+
+/** The address follows what is looked at after such a while [ms]. */
+const ADDRESS_MS = 300;
 
 export class App implements Listener {
   readonly handle: Handle;
@@ -47,6 +51,8 @@ export class App implements Listener {
   /** What the picture shows instead of the recording, if it does. */
   private wave: Recording | null = null;
   private becameReady: () => void = () => {};
+  private hasBegun = false;
+  private writing = 0;
 
   constructor(page: HTMLElement) {
     const ready = new Promise<void>((resolve) => {
@@ -84,6 +90,8 @@ export class App implements Listener {
     );
     watchTheme(() => this.restyle());
     this.player.changed = (took) => this.moved(took);
+    this.picture.settled = () => this.remember();
+    window.addEventListener("hashchange", () => this.restore());
     this.handle = this.handleWith(ready);
   }
 
@@ -118,6 +126,8 @@ export class App implements Listener {
       this.tabs.set("Bands", this.bands.element);
       if (this.tabs.shown === "Bands") this.bands.opened();
     }
+    if (!this.hasBegun && location.hash) this.restore();
+    this.hasBegun = true;
     this.picture.drawNow();
     this.becameReady();
     // The plots come after the first frame: what moves is looked at first.
@@ -215,6 +225,7 @@ export class App implements Listener {
   private opened(panel: string): void {
     if (panel === "Bands") this.bands.opened();
     if (panel === "Plots") this.plots.draw();
+    this.remember();
     if (panel === "Summary" && this.recording) this.tabs.set("Summary", summaryPanel(this.recording));
   }
 
@@ -222,6 +233,36 @@ export class App implements Listener {
     this.transport.moved();
     this.picture.request(frameTook);
     this.pointPlots();
+    if (frameTook === null) this.remember();
+  }
+
+  /** Shows what the address asks for. */
+  private restore(): void {
+    if (!this.recording || this.wave) return;
+    const look = lookIn(location.hash);
+    if (look.time !== undefined || this.hasBegun) this.player.hold(look.time ?? 0);
+    this.picture.restore(look);
+    const panel = look.panel ?? (this.hasBegun ? this.tabs.first : undefined);
+    if (panel !== undefined && this.tabs.has(panel)) this.tabs.open(panel);
+  }
+
+  /** Writes what is looked at into the address. */
+  private remember(): void {
+    if (!this.hasBegun) return;
+    this.writing ||= window.setTimeout(() => {
+      this.writing = 0;
+      const { player } = this;
+      if (player.playing || this.wave) return;
+      const { shown } = this.tabs;
+      const look = {
+        ...this.picture.look(),
+        ...(player.wanted > 0 && { time: player.wanted }),
+        ...(shown && shown !== this.tabs.first && { panel: shown }),
+      };
+      const hash = hashOf(look, location.hash);
+      if (hash === location.hash) return;
+      history.replaceState(null, "", hash || location.href.replace(/#.*/, ""));
+    }, ADDRESS_MS);
   }
 
   private pointPlots(): void {

@@ -12,6 +12,9 @@ interface PageActions {
 }
 
 const SOME_SAMPLES = 10;
+/** By how much a key turns the view [rad] and comes closer. */
+const TURN = Math.PI / 24;
+const CLOSER = 1.15;
 
 export function keysOf(player: Player, transport: Transport, picture: Picture, page: PageActions): Key[] {
   const { toolbar } = picture;
@@ -34,7 +37,13 @@ export function keysOf(player: Player, transport: Transport, picture: Picture, p
     key("]", "]", "faster", () => transport.changeSpeed(1)),
     key("[", "[", "slower", () => transport.changeSpeed(-1)),
     key("l L", "L", "loop", () => transport.toggleLoop()),
-    key("f F", "F", "follow the body", () => toolbar.toggleFollow()),
+    key("f F", "F", "follow the body or group", () => toolbar.toggleFollow()),
+    key("Shift+ArrowRight", "⇧ →", "view from farther right", () => picture.turn(TURN, 0)),
+    key("Shift+ArrowLeft", "⇧ ←", "view from farther left", () => picture.turn(-TURN, 0)),
+    key("Shift+ArrowUp", "⇧ ↑", "view from higher up", () => picture.turn(0, TURN)),
+    key("Shift+ArrowDown", "⇧ ↓", "view from farther down", () => picture.turn(0, -TURN)),
+    key("+ =", "+", "closer", () => picture.approach(CLOSER)),
+    key("- _", "−", "away", () => picture.approach(1 / CLOSER)),
     key("r R", "R", "first view again", () => picture.reset()),
     key("b B", "B", "next colouring", () => toolbar.nextColoring()),
     key("c C", "C", "contact forces", () => toolbar.toggle("forces")),

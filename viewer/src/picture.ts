@@ -2,7 +2,9 @@
 // the rest of the page goes on.
 
 import { classesOf } from "./data/classes";
+import type { Vec3 } from "./data/header";
 import type { Recording } from "./data/recording";
+import type { Look } from "./link";
 import type { Player } from "./player";
 import { h } from "./ui/dom";
 import { EdgeMarks } from "./ui/edge";
@@ -29,12 +31,17 @@ export class Picture {
     joints: true,
     follow: null,
   };
-  private readonly canvas = h("canvas", { "aria-label": "the bodies in space", tabindex: 0 });
+  private readonly canvas = h("canvas", {
+    "aria-label": "the bodies in space; shift and arrows turn the view",
+    tabindex: 0,
+  });
   private readonly scales = new Scales();
   private readonly edge = new EdgeMarks();
   private readonly stage: Stage | null;
   private view: SceneView | null = null;
   private playing = false;
+  /** Called after the reader has moved the camera or changed what is shown. */
+  settled: () => void = () => {};
 
   constructor(
     private readonly player: Player,
@@ -42,7 +49,10 @@ export class Picture {
   ) {
     this.toolbar = new Toolbar(
       this.shown,
-      () => this.request(null),
+      () => {
+        this.request(null);
+        this.settled();
+      },
       chose,
       () => this.reset(),
     );
@@ -61,6 +71,7 @@ export class Picture {
       this.stage && this.scales.element,
     );
     if (!this.stage) return;
+    this.stage.settled = () => this.settled();
     this.stage.prepare = () => this.prepare();
     this.stage.covered = () => this.toolbar.element.offsetTop + this.toolbar.element.offsetHeight;
     new ResizeObserver(() => this.stage?.resize()).observe(this.canvas);
@@ -113,6 +124,49 @@ export class Picture {
     this.view?.refit();
     this.toolbar.refresh();
     this.request(null);
+    this.settled();
+  }
+
+  /** What is looked at from where, as far as it is not as it begins. */
+  look(): Look {
+    const { stage, view } = this;
+    if (!stage || !view) return {};
+    const { position, target } = stage.sight;
+    const from = view.heldAt() ?? [0, 0, 0];
+    const beside = (at: Vec3) => at.map((value, axis) => value - from[axis]) as Vec3;
+    return {
+      ...this.toolbar.look(view.framing.travels),
+      ...(stage.touched && { camera: { position: beside(position), target: beside(target) } }),
+    };
+  }
+
+  /** Shows what a look tells at the time of the clock, and all else as it begins. */
+  restore(look: Look): void {
+    const { stage, view } = this;
+    if (!stage || !view) return;
+    stage.touched = false;
+    view.refit();
+    this.toolbar.restore(look, view.framing.travels);
+    view.place(this.player.time, false);
+    if (look.camera) {
+      const from = view.heldAt() ?? [0, 0, 0];
+      const [position, target] = [look.camera.position, look.camera.target].map(
+        (at) => at.map((value, axis) => value + from[axis]) as Vec3,
+      );
+      stage.stand({ position, target });
+      stage.touched = true;
+    }
+    this.request(null);
+  }
+
+  /** Turns the view about its target by angles to the right and upwards [rad]. */
+  turn(right: number, up: number): void {
+    this.stage?.turn(right, up);
+  }
+
+  /** Comes closer by a factor. */
+  approach(factor: number): void {
+    this.stage?.approach(factor);
   }
 
   /** After a change of theme. */

@@ -142,6 +142,15 @@ export class Player {
     this.changed(null);
   }
 
+  /** Stays at a time, also one that the recording has not reached [s]. */
+  hold(time: number): void {
+    this.pause();
+    this.wanted = Math.max(0, time);
+    this.holds = true;
+    if (this.recording && time <= this.recording.lastTime) this.seek(time);
+    this.changed(null);
+  }
+
   /** Goes to the end and stays there; of a run that goes on, to what has come last. */
   toEnd(): void {
     if (this.recording?.isOver) this.pause();

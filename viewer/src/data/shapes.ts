@@ -1,16 +1,13 @@
 // The kinds of shapes of bodies and supports, as the resolved scene names them, and the boxes around surfaces.
 
-import type { Header, Json, Vec3 } from "./header";
-import { list, table } from "./json";
+import { describedIn } from "./described";
+import type { Header, Vec3 } from "./header";
+import { table } from "./json";
 
 /** The kind of shape of what a scene names: `box`, `sphere`, … ; `null` where it tells none. */
-export function shapesIn({ resolved }: Pick<Header, "resolved">): (name: string) => string | null {
-  const scene = table(resolved);
-  const known = new Map<string, Json>();
-  for (const one of [...list(scene.support), ...list(scene.body)]) known.set(String(table(one).name), one);
-  // Copies have the name of the body and a number.
-  const described = (name: string) => known.get(name) ?? known.get(name.replace(/-\d+$/, ""));
-  return (name) => Object.keys(table(table(described(name)).shape))[0] ?? null;
+export function shapesIn(header: Pick<Header, "resolved">): (name: string) => string | null {
+  const described = describedIn(header);
+  return (name) => Object.keys(table(described(name).shape))[0] ?? null;
 }
 
 /** A box along the axes of the body, around its points. */

@@ -9,7 +9,7 @@ export interface EdgeMark {
 }
 
 export class EdgeMarks {
-  readonly element = h("div", { class: "edge-marks" });
+  readonly element = h("div", { class: "edge-marks", role: "status" });
   private shown = "";
 
   show(marks: EdgeMark[]): void {

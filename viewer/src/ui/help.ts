@@ -22,6 +22,7 @@ export function helpDialog(keys: Key[]): HTMLDialogElement {
     ["right drag, or two fingers", "move the view"],
     ["wheel, or pinch", "come closer, go away"],
     ["click a body", "choose it for the plots"],
+    ["the address", "is a link to what is looked at"],
     ["click in a plot", "go to that time"],
     ["drag in a plot", "zoom; double click: all again"],
   ].map(([shown, does]) => h("tr", {}, h("th", {}, shown), h("td", {}, does)));
@@ -60,7 +61,8 @@ export function listen(keys: Key[]): void {
     const target = event.target instanceof Element ? event.target : document.body;
     if (target.closest("input:not(.scrubber), select, textarea, dialog[open]")) return;
     if (event.key === " " && target.closest("button")) return;
-    const key = keys.find(({ keys }) => keys.includes(event.key));
+    const pressed = event.shiftKey && event.key.startsWith("Arrow") ? `Shift+${event.key}` : event.key;
+    const key = keys.find(({ keys }) => keys.includes(pressed));
     if (!key) return;
     event.preventDefault();
     key.act();

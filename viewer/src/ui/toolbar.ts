@@ -1,14 +1,14 @@
 // What of the scene is shown: colouring, arrows, trails, skins, planes, the body that is followed.
 
+import { groupsOf } from "../data/described";
 import type { Recording } from "../data/recording";
+import type { Look } from "../link";
 import { counted } from "../math/format";
 import type { Coloring } from "../view/coloring";
-import type { SceneView, Shown } from "../view/scene";
+import { LAYERS, type Layer, type SceneView, type Shown } from "../view/scene";
 import { h, type Icon, iconButton, pressed } from "./dom";
 
-type Toggle = "forces" | "velocity" | "axes" | "trails" | "ghosts" | "supports" | "joints";
-
-const TOGGLES: [Toggle, Icon, string, string][] = [
+const TOGGLES: [Layer, Icon, string, string][] = [
   ["forces", "force", "Contact forces", "C"],
   ["velocity", "velocity", "Velocities", "V"],
   ["axes", "axes", "Principal axes of strain", "A"],
@@ -18,6 +18,16 @@ const TOGGLES: [Toggle, Icon, string, string][] = [
   ["joints", "joints", "Joints, springs, bonds, pins", "J"],
 ];
 
+/** What is shown at first. */
+const BEGINNING: Layer[] = ["supports", "joints"];
+/** Stands before a group among the values of the choice. */
+const GROUP = "group:";
+
+function chosenBy(value: string): number | string | null {
+  if (value.startsWith(GROUP)) return value.slice(GROUP.length);
+  return value === "" ? null : Number(value);
+}
+
 const COLORINGS: [Coloring, string][] = [
   ["body", "Colour by body"],
   ["stretch", "Colour by stretch"],
@@ -26,13 +36,15 @@ const COLORINGS: [Coloring, string][] = [
 
 export class Toolbar {
   readonly element: HTMLElement;
-  private readonly buttons = new Map<Toggle, HTMLButtonElement>();
+  private readonly buttons = new Map<Layer, HTMLButtonElement>();
   private readonly coloring: HTMLSelectElement;
   private readonly options: HTMLOptionElement[];
   private readonly body: HTMLSelectElement;
   private readonly following: HTMLButtonElement;
-  /** The body that was chosen, followed or not. */
-  chosen: number | null = null;
+  /** The body that was chosen, or a group of them, followed or not. */
+  private chosen: number | string | null = null;
+  private bodies: string[] = [];
+  private groups = new Map<string, number[]>();
 
   constructor(
     private readonly shown: Shown,
@@ -48,9 +60,9 @@ export class Toolbar {
     );
     this.body = h("select", {
       "aria-label": "body",
-      onchange: () => this.choose(this.body.value === "" ? null : Number(this.body.value)),
+      onchange: () => this.choose(chosenBy(this.body.value)),
     });
-    this.following = iconButton("follow", "Follow the body (F)", () => this.toggleFollow());
+    this.following = iconButton("follow", "Follow the body or group (F)", () => this.toggleFollow());
     for (const [name, icon, label, key] of TOGGLES) {
       this.buttons.set(
         name,
@@ -59,7 +71,7 @@ export class Toolbar {
     }
     this.element = h(
       "div",
-      { class: "toolbar", role: "toolbar", "aria-label": "what is shown" },
+      { class: "toolbar", role: "group", "aria-label": "what is shown" },
       h("div", { class: "selects" }, this.coloring, this.body),
       h(
         "div",
@@ -85,15 +97,23 @@ export class Toolbar {
       h("option", { value: "" }, counted(bodies.length, "body")),
       ...bodies.map((body, index) => h("option", { value: index }, body.name)),
     );
+    this.bodies = bodies.map(({ name }) => name);
+    this.groups = groupsOf(recording.header);
+    if (this.groups.size > 0) {
+      const options = [...this.groups].map(([name, members]) =>
+        h("option", { value: GROUP + name }, `${name} (${members.length})`),
+      );
+      this.body.append(h("optgroup", { label: "Groups" }, ...options));
+    }
     this.body.hidden = bodies.length < 2;
     this.buttons.get("axes")!.disabled = bodies.every((body) => body.kind === "rigid");
     this.buttons.get("joints")!.disabled = !isJoined;
-    if (this.chosen !== null && this.chosen >= bodies.length) this.choose(null);
-    if (this.shown.follow !== null && this.shown.follow >= bodies.length) this.shown.follow = null;
+    if (this.chosen !== null && !this.members()) this.choose(null);
+    if (this.shown.follow?.some((body) => body >= bodies.length)) this.shown.follow = null;
     this.refresh();
   }
 
-  toggle(name: Toggle): void {
+  toggle(name: Layer): void {
     if (this.buttons.get(name)?.disabled) return;
     this.shown[name] = !this.shown[name];
     this.refresh();
@@ -101,7 +121,7 @@ export class Toolbar {
   }
 
   toggleFollow(): void {
-    this.shown.follow = this.shown.follow === null ? (this.chosen ?? 0) : null;
+    this.shown.follow = this.shown.follow === null ? (this.members() ?? [0]) : null;
     this.refresh();
     this.changed();
   }
@@ -112,19 +132,52 @@ export class Toolbar {
     this.color(free[(free.indexOf(this.shown.coloring) + 1) % free.length]);
   }
 
-  choose(body: number | null): void {
-    this.chosen = body;
-    if (this.shown.follow !== null) this.shown.follow = body;
+  /** Chooses a body by its number, or a group by its name. */
+  choose(chosen: number | string | null): void {
+    this.chosen = chosen;
+    if (this.shown.follow !== null) this.shown.follow = this.members();
     this.refresh();
-    this.chose(body);
+    this.chose(typeof chosen === "number" ? chosen : null);
     this.changed();
+  }
+
+  /** What is chosen and shown, as far as it is not as it begins; bodies are followed at first where `travels`. */
+  look(travels: boolean): Look {
+    const { coloring, follow } = this.shown;
+    const show = LAYERS.filter((layer) => this.shown[layer]);
+    return {
+      ...(show.join() !== BEGINNING.join() && { show }),
+      ...(coloring !== "body" && { color: coloring }),
+      ...(typeof this.chosen === "number" && { body: this.bodies[this.chosen] }),
+      ...(typeof this.chosen === "string" && { group: this.chosen }),
+      ...((follow !== null) !== travels && { follow: follow !== null }),
+    };
+  }
+
+  /** Shows what a look tells, and all else as it begins. */
+  restore({ show = BEGINNING, color = "body", body, group, follow }: Look, travels: boolean): void {
+    for (const layer of LAYERS) this.shown[layer] = show.includes(layer);
+    const index = COLORINGS.findIndex(([coloring]) => coloring === color);
+    this.shown.coloring = this.options[index].disabled ? "body" : color;
+    const place = this.bodies.indexOf(body ?? "");
+    const isGroup = group !== undefined && this.groups.has(group);
+    this.shown.follow = null;
+    this.choose(place >= 0 ? place : isGroup ? group : null);
+    if (follow ?? travels) this.shown.follow = this.members() ?? [0];
+    this.refresh();
+  }
+
+  /** The bodies that are chosen. */
+  private members(): number[] | null {
+    if (typeof this.chosen === "string") return this.groups.get(this.chosen) ?? null;
+    return this.chosen !== null && this.chosen < this.bodies.length ? [this.chosen] : null;
   }
 
   refresh(): void {
     for (const [name, button] of this.buttons) pressed(button, this.shown[name]);
     pressed(this.following, this.shown.follow !== null);
     this.coloring.value = this.shown.coloring;
-    this.body.value = this.chosen === null ? "" : String(this.chosen);
+    this.body.value = typeof this.chosen === "string" ? GROUP + this.chosen : String(this.chosen ?? "");
   }
 
   private color(coloring: Coloring): void {

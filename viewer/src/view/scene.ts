@@ -21,19 +21,16 @@ import { SupportLayer } from "./supports";
 import { TrailLayer } from "./trails";
 import { VectorLayer } from "./vectors";
 
+/** What can be shown or not; `joints` are springs, bonds and pins as well. */
+export const LAYERS = ["forces", "velocity", "axes", "trails", "ghosts", "supports", "joints"] as const;
+
+export type Layer = (typeof LAYERS)[number];
+
 /** What is shown. */
-export interface Shown {
+export interface Shown extends Record<Layer, boolean> {
   coloring: Coloring;
-  forces: boolean;
-  velocity: boolean;
-  axes: boolean;
-  trails: boolean;
-  ghosts: boolean;
-  supports: boolean;
-  /** Joints, springs, bonds and pins. */
-  joints: boolean;
-  /** The body that the camera goes with. */
-  follow: number | null;
+  /** The bodies whose centre the camera goes with. */
+  follow: number[] | null;
 }
 
 export class SceneView {
@@ -48,7 +45,7 @@ export class SceneView {
   private readonly vectors: VectorLayer;
   private readonly trails: TrailLayer;
   private ghosts: GhostLayer;
-  private followed: { body: number; at: Vector3 } | null = null;
+  private followed: { bodies: number[]; at: Vector3 } | null = null;
   /** Rows that the framing has seen. */
   private framedRows = 0;
   /** Rows by which bodies that fly off were found. */
@@ -117,7 +114,7 @@ export class SceneView {
     this.framedRows = this.recording.rows;
     this.findStrays();
     this.center = framing.center;
-    if (framing.travels && this.shown.follow === null && !this.stage.touched) this.shown.follow = 0;
+    if (framing.travels && this.shown.follow === null && !this.stage.touched) this.shown.follow = [0];
     this.supports.fit(framing.radius);
     this.vectors.fit(framing.radius);
     this.stage.frame(framing);
@@ -192,30 +189,40 @@ export class SceneView {
     this.ghosts.dispose();
   }
 
-  /** Moves the camera as the followed body has moved since it was looked at last. */
+  /** Moves the camera as the centre of the followed bodies has moved since it was looked at last. */
   private follow(): void {
-    const body = this.shown.follow;
-    if (body === null) {
+    const bodies = this.shown.follow;
+    if (bodies === null) {
       this.followed = null;
       return;
     }
-    const at = new Vector3(...this.centerOf(body));
+    const at = new Vector3(...this.centerOf(...bodies));
     if (![at.x, at.y, at.z].every(Number.isFinite)) return;
-    if (this.followed?.body === body) this.stage.shift(at.clone().sub(this.followed.at));
+    if (this.followed?.bodies === bodies) this.stage.shift(at.clone().sub(this.followed.at));
     else this.stage.shift(at.clone().sub(this.stage.target));
-    this.followed = { body, at };
+    this.followed = { bodies, at };
   }
 
-  /** The point around which the planes are drawn: where the followed body is, else the middle of the scene. */
+  /** The point around which the planes are drawn: the followed centre, else the middle of the scene. */
   private middle(): Vec3 {
-    return this.shown.follow === null ? this.center : this.centerOf(this.shown.follow);
+    return this.heldAt() ?? this.center;
+  }
+
+  /** The centre of mass of the followed bodies [m]. */
+  heldAt(): Vec3 | null {
+    return this.shown.follow && this.centerOf(...this.shown.follow);
   }
 
   private cast(): void {
     this.supports.shade(this.bodies.casters, directionsFor(this.stage.quality, this.bodies.triangles));
   }
 
-  private centerOf(body: number): Vec3 {
-    return Array.from(this.frame.position.subarray(3 * body, 3 * body + 3)) as Vec3;
+  /** Σ mᵢ pᵢ / Σ mᵢ. */
+  private centerOf(...bodies: number[]): Vec3 {
+    const masses = bodies.map((body) => this.recording.header.bodies[body].mass);
+    const whole = masses.reduce((sum, mass) => sum + mass, 0);
+    return [0, 1, 2].map((axis) =>
+      bodies.reduce((sum, body, k) => sum + (masses[k] / whole) * this.frame.position[3 * body + axis], 0),
+    ) as Vec3;
   }
 }

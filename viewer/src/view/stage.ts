@@ -20,6 +20,8 @@ const CROWD_RATIO = 0.7;
 const MARGIN = 1.12;
 /** The part of the picture's height that buttons above it may take from what is framed. */
 const MOST_COVERED = 0.3;
+/** Keys leave this angle between the view and up or down [rad]. */
+const LEAST_POLAR = 0.02;
 /** Where light comes from, in the same directions. */
 const KEY = [-0.5, 0.75, 1.5];
 const FILL = [1, 0.5, 0.25];
@@ -42,6 +44,8 @@ export class Stage {
   touched = false;
   /** Called before each frame. */
   prepare: () => void = () => {};
+  /** Called after the reader has moved the camera. */
+  settled: () => void = () => {};
   /** How much of the canvas lies under buttons, from its top [px]. */
   covered: () => number = () => 0;
   private readonly scene = new Scene();
@@ -147,11 +151,35 @@ export class Stage {
 
   /** Puts the camera where it is to stand [m]. */
   stand({ position, target }: Sight): void {
-    this.root.updateMatrixWorld();
     this.controls.target.copy(this.root.localToWorld(new Vector3(...target)));
     this.camera.position.copy(this.root.localToWorld(new Vector3(...position)));
     this.controls.update();
     this.request();
+  }
+
+  /** Turns the camera about its target by angles to the right and upwards [rad]. */
+  turn(right: number, up: number): void {
+    const { target } = this.controls;
+    const away = this.camera.position.clone().sub(target);
+    away.applyAxisAngle(this.camera.up, right);
+    const polar = away.angleTo(this.camera.up);
+    const by = Math.min(Math.PI - LEAST_POLAR - polar, Math.max(LEAST_POLAR - polar, -up));
+    away.applyAxisAngle(new Vector3().crossVectors(this.camera.up, away).normalize(), by);
+    this.moved(target.clone().add(away));
+  }
+
+  /** Comes closer to the target by a factor. */
+  approach(factor: number): void {
+    const { target } = this.controls;
+    this.moved(this.camera.position.clone().sub(target).divideScalar(factor).add(target));
+  }
+
+  private moved(to: Vector3): void {
+    this.touched = true;
+    this.camera.position.copy(to);
+    this.controls.update();
+    this.request();
+    this.settled();
   }
 
   /** Where a point of the scene [m] lies beyond the edge of the picture, from −1 to 1; `null` if it is within. */
@@ -170,13 +198,6 @@ export class Stage {
     const moved = by.divideScalar(this.framing.radius);
     this.controls.target.add(moved);
     this.camera.position.add(moved);
-  }
-
-  /** Puts the camera's target on a point of the scene [m]. */
-  aim(at: Vec3): void {
-    this.shift(new Vector3(...at).sub(this.target));
-    this.controls.update();
-    this.request();
   }
 
   /** The point of the scene looked at [m]. */
@@ -204,6 +225,7 @@ export class Stage {
     controls.addEventListener("start", () => {
       this.touched = true;
     });
+    controls.addEventListener("end", () => this.settled());
     return controls;
   }
 }

@@ -2,16 +2,23 @@
 
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { beforeAll, describe, expect, it } from "vitest";
-import { browser, DESK, differing, lastTime, opened, PHONE, pixelsAt } from "./browser";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { browser, DESK, differing, lastTime, type Opened, opened, PHONE, pixelsAt } from "./browser";
 import { folder, interrupted, recorded, reported } from "./program";
 
 let dice = "";
 let ball = "";
+/** The report of the dice, opened once for all that leave it as they found it. */
+let shared: Opened;
 
-beforeAll(() => {
+beforeAll(async () => {
   dice = reported(recorded("dice", "time.end=0.5"));
   ball = reported(recorded("elastic-bounce", "time.end=0.3"));
+  shared = await opened(dice);
+});
+afterAll(async () => {
+  expect(shared.problems).toEqual([]);
+  await shared.close();
 });
 
 /** Where the line for the time stands in the first chart [px]. */
@@ -38,19 +45,18 @@ describe("a report", () => {
   it("tells_an_open_ledger_in_its_head_and_beside_the_outcome", async () => {
     const path = join(folder, "open.html");
     writeFileSync(path, readFileSync(dice, "utf8").replace('"ledger":"closed"', '"ledger":"open"'));
-    for (const [file, told] of [
-      [path, true],
-      [dice, false],
-    ] as const) {
-      const { page, problems, close } = await opened(file);
+    const told = await opened(path);
+    for (const { page } of [told, shared]) {
+      const isOpen = page === told.page;
       await page.getByRole("tab", { name: "Summary" }).click();
-      expect((await page.locator(".chip").textContent()) === "energy ledger open").toBe(told);
+      expect((await page.locator(".chip").textContent()) === "energy ledger open").toBe(isOpen);
       expect(
         (await page.locator("#panel-summary").textContent())!.includes("Energy ledger open: residual "),
-      ).toBe(told);
-      expect(problems).toEqual([]);
-      await close();
+      ).toBe(isOpen);
     }
+    await shared.page.getByRole("tab", { name: "Plots" }).click();
+    expect(told.problems).toEqual([]);
+    await told.close();
   });
 
   it("of_a_run_that_was_stopped_says_interrupted", async () => {
@@ -66,14 +72,13 @@ describe("a report", () => {
   });
 
   it("counts_one_body_as_one", async () => {
-    const { page, close } = await opened(dice);
+    const { page } = shared;
     const words = await page.evaluate(() => document.body.textContent ?? "");
     expect(words).not.toMatch(/\b1 (bodies|samples|steps)\b/);
-    await close();
   });
 
   it("moves_the_cursor_of_the_plots_with_the_scrubber", async () => {
-    const { page, problems, close } = await opened(dice);
+    const { page } = shared;
     await page.waitForSelector(".time-cursor");
     const places: number[] = [];
     for (const part of ["0.1", "0.25", "0.4"]) {
@@ -84,12 +89,10 @@ describe("a report", () => {
     // Equal steps of the scrubber are equal steps of the cursor.
     expect(places[1] - places[0]).toBeGreaterThan(20);
     expect(Math.abs(places[2] - places[1] - (places[1] - places[0]))).toBeLessThan(2);
-    expect(problems).toEqual([]);
-    await close();
   });
 
   it("goes_to_the_time_that_is_clicked_in_a_plot", async () => {
-    const { page, close } = await opened(dice);
+    const { page } = shared;
     const over = page.locator(".u-over").first();
     await over.waitFor();
     const { width, height } = (await over.boundingBox())!;
@@ -97,11 +100,10 @@ describe("a report", () => {
     const time = await page.evaluate(() => window.gyration.time);
     // A sample is 5 ms apart from the next.
     expect(Math.abs(time - 0.6 * (await lastTime(page)))).toBeLessThan(0.006);
-    await close();
   });
 
   it("zooms_all_plots_by_a_drag_and_back_by_a_double_click", async () => {
-    const { page, close } = await opened(dice);
+    const { page } = shared;
     const over = page.locator(".u-over").first();
     await over.waitFor();
     const { x, y, width, height } = (await over.boundingBox())!;
@@ -117,12 +119,12 @@ describe("a report", () => {
     expect(new Set(await places())).toEqual(new Set(["none"]));
     await over.dblclick();
     await expect.poll(async () => new Set(await places())).toEqual(new Set([""]));
-    await close();
   });
 
   it("obeys_keys", async () => {
-    const { page, close } = await opened(dice);
+    const { page } = shared;
     const time = () => page.evaluate(() => window.gyration.time);
+    await page.keyboard.press("Home");
     await page.keyboard.press("ArrowRight");
     await page.keyboard.press("ArrowRight");
     expect(await time()).toBeCloseTo(0.01, 9);
@@ -146,11 +148,10 @@ describe("a report", () => {
     await page.keyboard.press("?");
     await page.getByRole("dialog", { name: "help" }).waitFor();
     await page.keyboard.press("Escape");
-    await close();
   });
 
   it("tells_outcome_ledger_bodies_solver_scene_and_provenance", async () => {
-    const { page, close } = await opened(dice);
+    const { page } = shared;
     await page.getByRole("tab", { name: "Summary" }).click();
     const words = (await page.locator("#panel-summary").textContent()) ?? "";
     for (const part of [
@@ -168,15 +169,13 @@ describe("a report", () => {
     expect(await scene.textContent()).toContain('title = "A die thrown on a table"');
     await page.getByRole("button", { name: "Resolved" }).click();
     expect(await scene.textContent()).toContain('"nu": 6');
-    await close();
+    await page.getByRole("tab", { name: "Plots" }).click();
   });
 
   it("colours_by_stretch_and_says_why_it_cannot", async () => {
-    const rigid = await opened(dice);
-    const choice = rigid.page.getByRole("combobox", { name: "colouring" });
+    const choice = shared.page.getByRole("combobox", { name: "colouring" });
     expect(await choice.locator("option").nth(1).isDisabled()).toBe(true);
     expect(await choice.locator("option").nth(1).textContent()).toContain("Rigid bodies");
-    await rigid.close();
 
     const { page, problems, close } = await opened(ball);
     const end = await lastTime(page);
@@ -205,13 +204,12 @@ describe("a report", () => {
 
   it("is_dark_or_light_as_the_system_is_and_can_be_switched", async () => {
     const background = () => getComputedStyle(document.body).backgroundColor;
-    const light = await opened(dice, { ...DESK, colorScheme: "light" });
+    const light = shared;
     const dark = await opened(dice, { ...DESK, colorScheme: "dark" });
     expect(await light.page.evaluate(background)).not.toBe(await dark.page.evaluate(background));
     expect(differing(await pixelsAt(light.page, 0), await pixelsAt(dark.page, 0))).toBeGreaterThan(1000);
-    await light.page.keyboard.press("d");
-    expect(await light.page.evaluate(background)).toBe(await dark.page.evaluate(background));
-    await light.close();
+    await dark.page.keyboard.press("d");
+    expect(await dark.page.evaluate(background)).toBe(await light.page.evaluate(background));
     await dark.close();
   });
 
@@ -236,14 +234,67 @@ describe("a report", () => {
   });
 
   it("gives_every_control_a_name", async () => {
-    const { page, close } = await opened(dice);
+    const { page } = shared;
     const nameless = await page.evaluate(() =>
       [...document.querySelectorAll("button, select, input")]
         .filter((element) => !element.getAttribute("aria-label") && !element.textContent?.trim())
         .map((element) => element.outerHTML.slice(0, 80)),
     );
     expect(nameless).toEqual([]);
-    await close();
+  });
+
+  it("is_gone_through_by_keys_alone", async () => {
+    const { page } = shared;
+    await page.getByRole("tab", { name: "Plots" }).focus();
+    const focused = () =>
+      page.evaluate(() => {
+        const { outlineStyle } = getComputedStyle(document.activeElement!);
+        return [document.activeElement!.textContent, outlineStyle === "none" ? "unseen" : "seen"];
+      });
+    await page.keyboard.press("ArrowRight");
+    expect(await focused()).toEqual(["Summary", "seen"]);
+    expect(await page.locator("#panel-summary").isVisible()).toBe(true);
+    await page.keyboard.press("Home");
+    expect(await focused()).toEqual(["Plots", "seen"]);
+    // Arrows in the bar of panels are not those of the clock.
+    await page.evaluate(() => window.gyration.seek(0.1));
+    await page.keyboard.press("End");
+    await page.keyboard.press("Home");
+    expect(await page.evaluate(() => window.gyration.time)).toBeCloseTo(0.1, 9);
+    const before = await pixelsAt(page, 0.1);
+    await page.keyboard.press("Shift+ArrowRight");
+    expect(differing(before, await pixelsAt(page, 0.1))).toBeGreaterThan(100);
+    await page.keyboard.press("Shift+ArrowLeft");
+    expect(differing(before, await pixelsAt(page, 0.1))).toBeLessThan(20);
+  });
+
+  it("is_found_again_by_its_address", async () => {
+    const { page } = shared;
+    for (const key of ["c", "g", "f", "Shift+ArrowUp", "+"]) await page.keyboard.press(key);
+    await page.getByRole("tab", { name: "Summary" }).click();
+    const seen = await pixelsAt(page, 0.2);
+    await expect
+      .poll(() => page.evaluate(() => location.hash))
+      .toMatch(/^#t=0\.2\d*&show=forces,joints&follow=0&camera=[-\d.,e]+&panel=Summary$/);
+    const link = await page.evaluate(() => location.hash);
+    const again = await opened(`${dice}${link}`);
+    expect(await again.page.evaluate(() => window.gyration.time)).toBeCloseTo(0.2, 9);
+    expect(await again.page.locator("#panel-summary").isVisible()).toBe(true);
+    expect(await again.page.evaluate(() => location.hash)).toBe(link);
+    expect(differing(seen, await pixelsAt(again.page, 0.2))).toBeLessThan(20);
+    // Without it all is as it begins.
+    await again.page.evaluate(() => {
+      location.hash = "";
+    });
+    await expect.poll(() => again.page.evaluate(() => window.gyration.time)).toBe(0);
+    const follows = again.page.getByRole("button", { name: "Follow the body" });
+    expect(await follows.getAttribute("aria-pressed")).toBe("true");
+    expect(again.problems).toEqual([]);
+    await again.close();
+    await page.evaluate(() => {
+      location.hash = "";
+    });
+    await expect.poll(() => page.evaluate(() => window.gyration.time)).toBe(0);
   });
 
   it("shows_plots_without_webgl_and_says_so", async () => {
