@@ -185,7 +185,8 @@ fn chain_steps(bodies: usize) -> (f64, Integrator) {
 
 fn cost_of_coupling() {
     println!(
-        "\n| bodies in a chain | numbers of factors a body | evaluations a step | factorizations a step | ns a step and body |"
+        "\n| bodies in a chain | numbers of factors a body | evaluations a step | factorizations a step | ns a step \
+            and body |"
     );
     for bodies in LENGTHS {
         let (mut seconds, integrator) = chain_steps(bodies);

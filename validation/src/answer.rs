@@ -67,7 +67,8 @@ impl fmt::Display for Answer {
         let row = self.row.map_or("–".to_owned(), |row| row.to_string());
         write!(
             f,
-            "row={row} case=\"{}\" quantity=\"{}\" reference={} measured={} error={:.1e} tolerance={:.0e} source=\"{}\"",
+            "row={row} case=\"{}\" quantity=\"{}\" reference={} measured={} error={:.1e} tolerance={:.0e} \
+                source=\"{}\"",
             self.case,
             self.quantity,
             digits(self.reference),

@@ -36,7 +36,8 @@ fn ball(name: &str, radius: f64, mass: f64, height: f64) -> String {
 fn balls_on_a_dashpot_come_to_rest_as_their_balance_says() {
     let (radii, stiffness, damping, length, end) = ([0.1, 0.25], 3.0, 5.0, 1.0, 2.0);
     let spring = format!(
-        "[[spring]]\nbetween = [\"a\", \"b\"]\nstiffness = {stiffness:?}\ndamping = {damping:?}\nrest_length = {length:?}\n"
+        "[[spring]]\nbetween = [\"a\", \"b\"]\nstiffness = {stiffness:?}\ndamping = {damping:?}\nrest_length = \
+            {length:?}\n"
     );
     let bodies = ball("a", radii[0], 1.0, 1.5) + &ball("b", radii[1], 2.0, 0.0);
     let scene = bodies + &spring;
@@ -99,7 +100,8 @@ fn equal_balls_drive_each_other_apart_against_damping_and_fluid() {
             String::new()
         };
         let laws = format!(
-            "[[contact]]\nbetween = [\"a\", \"b\"]\nrepulsion = {{ alpha = {alpha:?}, nu = {nu:?}, d0 = {d0:?} }}\n{damping}"
+            "[[contact]]\nbetween = [\"a\", \"b\"]\nrepulsion = {{ alpha = {alpha:?}, nu = {nu:?}, d0 = {d0:?} \
+                }}\n{damping}"
         );
         let end = 0.5;
         let bodies = ball("a", radius, 1.0, 2.0 * radius + first) + &ball("b", radius, 1.0, 0.0);

@@ -152,7 +152,8 @@ impl StudyWork {
         match finished.map_err(errors::study)? {
             Some(digest) => errors::warn(py, digest.open.warning()),
             None => Err(errors::study_said(&format!(
-                "the study was stopped after {} of {} runs\n  fix: go on with gyration.study(..., output={:?}, resume=True)",
+                "the study was stopped after {} of {} runs\n  fix: go on with gyration.study(..., output={:?}, \
+                    resume=True)",
                 self.done(),
                 self.total(),
                 self.folder.display().to_string()

@@ -247,7 +247,8 @@ fn the_offered_start_of_an_incompressible_body_is_accepted() {
 fn a_fast_spin_is_no_change_of_volume() {
     // Rounding of tr L grows with ω: 1e8 rad/s of a body of micrometres leave more than 1e-9 1/s.
     let scene = block(&format!(
-        "{RUBBER}orientation = {{ axis_angle = {{ axis = [1, 2, 3], angle = 1 }} }}\nangular_velocity = [1e8, -2e8, 3e8]"
+        "{RUBBER}orientation = {{ axis_angle = {{ axis = [1, 2, 3], angle = 1 }} }}\nangular_velocity = [1e8, -2e8, \
+            3e8]"
     ));
     assert_resolves_to_itself(&scene);
 }

@@ -105,7 +105,8 @@ fn tables_are_read_relative_to_the_scene_and_interpolated_as_they_say() {
         (", interpolation = \"cubic\"", Interpolation::Cubic),
     ] {
         let text = format!(
-            "{BLOCK}contractile = {{ contraction_viscosity = 1, drive = {{ table = {{ file = \"drives/q.csv\"{words} }} }} }}\n"
+            "{BLOCK}contractile = {{ contraction_viscosity = 1, drive = {{ table = {{ file = \"drives/q.csv\"{words} \
+                }} }} }}\n"
         );
         let scene = Scene::parse("scene.toml", &text, folder.path(), &[]).unwrap_or_else(|errors| panic!("{errors}"));
         let table = Signal::Table(TensorTable::new(values.clone(), interpolation).unwrap());
@@ -316,7 +317,8 @@ fn the_offered_start_of_a_contractile_body_is_accepted() {
 #[test]
 fn keys_of_a_drive_can_be_overridden() {
     let text = format!(
-        "{BLOCK}contractile = {{ contraction_viscosity = 1, drive = {{ sine = {{ amplitude = {STRETCH}, frequency = 1 }} }} }}\n"
+        "{BLOCK}contractile = {{ contraction_viscosity = 1, drive = {{ sine = {{ amplitude = {STRETCH}, frequency = 1 \
+            }} }} }}\n"
     );
     let set = "body.b.contractile.drive.sine.frequency=\"3 Hz\"".to_owned();
     let scene = Scene::parse("scene.toml", &text, Path::new(""), &[set]).unwrap_or_else(|errors| panic!("{errors}"));

@@ -213,7 +213,8 @@ fn errors_of_feedback_stand_at_their_place() {
             "[least, most]",
         ),
         (
-            "feedback = { measure = { stretch = [1, 0, 0] }, gain = §[[1e300, 0, 0], [0, 0, 0], [0, 0, 0]], limits = [0, 1e9] }",
+            "feedback = { measure = { stretch = [1, 0, 0] }, gain = §[[1e300, 0, 0], [0, 0, 0], [0, 0, 0]], limits = \
+                [0, 1e9] }",
             "feedback.gain",
             "leaves the range of numbers at a limit",
             "smaller",
@@ -247,7 +248,8 @@ fn errors_of_a_prescribed_contraction_stand_at_their_place() {
             "det G > 0",
         ),
         (
-            "prescribed = §{ sum = [{ constant = { value = ONE } }, { square = { amplitude = ZERO, frequency = 1 } }] }",
+            "prescribed = §{ sum = [{ constant = { value = ONE } }, { square = { amplitude = ZERO, frequency = 1 } }] \
+                }",
             "prescribed",
             "jumps with a square wave",
             "use a sine, a ramp or a table",
@@ -277,7 +279,8 @@ fn errors_of_a_prescribed_contraction_stand_at_their_place() {
             "keep one of `drive` and `prescribed`",
         ),
         (
-            "prescribed = { constant = { value = ONE } }, feedback = §{ measure = { stretch = [1, 0, 0] }, gain = ONE }",
+            "prescribed = { constant = { value = ONE } }, feedback = §{ measure = { stretch = [1, 0, 0] }, gain = ONE \
+                }",
             "feedback",
             "`prescribed` stands beside it",
             "keep one",
@@ -339,7 +342,9 @@ fn errors_of_kinds_and_starts_of_contractile_bodies_stand_at_their_place() {
             "positive determinant",
         ),
         (
-            "contractile = { contraction_viscosity = 1 }\ngradient_rate = [[0, 0, 0], [0, 0, 0], [0, 0, 0]]\nangular_velocity = §[0, 0, 1]".into(),
+            "contractile = { contraction_viscosity = 1 }\ngradient_rate = [[0, 0, 0], [0, 0, 0], [0, 0, \
+                0]]\nangular_velocity = §[0, 0, 1]"
+                .into(),
             "angular_velocity",
             "`gradient_rate` already says",
             "leave `angular_velocity` out",

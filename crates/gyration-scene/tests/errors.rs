@@ -133,7 +133,8 @@ fn errors_of_fluids_stand_at_their_place() {
     let text = format!("{TIME}{BALL}[fluid]\nviscosity = 1\nvelocity_gradient = §{swelling}\n");
     assert_error(&text, "fluid.velocity_gradient", "its trace is 0.5 1/s: the fluid would swell", "add up to 0");
     let text = format!(
-        "{TIME}{BALL}[fluid]\nviscosity = 1\nvelocity_gradient = §{{ sine = {{ amplitude = {swelling}, frequency = 1 }} }}\n"
+        "{TIME}{BALL}[fluid]\nviscosity = 1\nvelocity_gradient = §{{ sine = {{ amplitude = {swelling}, frequency = 1 \
+            }} }}\n"
     );
     assert_error(&text, "fluid.velocity_gradient", "at t = ", "add up to 0");
 }
@@ -285,12 +286,14 @@ fn errors_of_bodies_stand_at_their_place() {
     );
     let rows: &[(String, &str, &str, &str)] = &[
         (format!("§[[body]]\nname = \"b\"\n{sphere}"), "body.b", "no mass", "exactly one"),
-        (format!("[[body]]\nname = \"b\"\n{sphere}\ndensity = 1\nmass = §2"), "body.b.mass", "more than one", "exactly one"),
+        (format!("[[body]]\nname = \"b\"\n{sphere}\ndensity = 1\nmass = \
+            §2"), "body.b.mass", "more than one", "exactly one"),
         ("§[[body]]\nname = \"b\"\nmass = 1".into(), "body.b.shape", "missing", "mass_properties"),
         (format!("[[body]]\nname = \"b\"\n{sphere}\nmass = §0"), "body.b.mass", "greater than 0 kg", ""),
         (format!("[[body]]\nname = §\"ball\"\n{sphere}\nmass = 1"), "body.ball.name", "occurs twice", ""),
         (format!("§[[body]]\n{sphere}\nmass = 1"), "body.1.name", "missing", "name"),
-        ("[[body]]\nname = \"b\"\nmass = 1\nshape = { box = { size = [1, §-2, 1] } }".into(), "body.b.shape.box.size.1", "greater than 0 m, found -2 m", ""),
+        ("[[body]]\nname = \"b\"\nmass = 1\nshape = { box = { size = [1, §-2, 1] } \
+            }".into(), "body.b.shape.box.size.1", "greater than 0 m, found -2 m", ""),
         (
             "[[body]]\nname = \"b\"\nmass = 1\nshape = { torus = { major_radius = 1, minor_radius = §2 } }".into(),
             "body.b.shape.torus.minor_radius",
@@ -310,7 +313,8 @@ fn errors_of_bodies_stand_at_their_place() {
             "relative to the folder of the scene",
         ),
         (
-            "[[body]]\nname = \"b\"\nshape = §{ points = [{ mass = 1, at = [0, 0, 0] }, { mass = 1, at = [1, 0, 0] }] }".into(),
+            "[[body]]\nname = \"b\"\nshape = §{ points = [{ mass = 1, at = [0, 0, 0] }, { mass = 1, at = [1, 0, 0] }] \
+                }".into(),
             "body.b.shape",
             "on one line",
             "off the line",
@@ -323,7 +327,8 @@ fn errors_of_bodies_stand_at_their_place() {
         ),
         ("[[body]]\nname = \"b\"\nshape = { points = §[] }".into(), "body.b.shape.points", "no points", "at = "),
         (
-            format!("[[body]]\nname = \"b\"\nshape = {{ union = {{ parts = [{{ density = 1, {sphere} }}, §{{ {sphere} }}] }} }}"),
+            format!("[[body]]\nname = \"b\"\nshape = {{ union = {{ parts = [{{ density = 1, {sphere} }}, §{{ {sphere} \
+                }}] }} }}"),
             "body.b.shape.union.parts.1.density",
             "no density",
             "give the part",
@@ -369,7 +374,8 @@ fn errors_of_bodies_stand_at_their_place() {
             "`angular_velocity`",
         ),
         (
-            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\npin = [0, 0, 1]\nangular_velocity = [1, 0, 0]\nvelocity = §[0, 0, 0]"),
+            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\npin = [0, 0, 1]\nangular_velocity = [1, 0, \
+                0]\nvelocity = §[0, 0, 0]"),
             "body.b.velocity",
             "[0e0, 1e0, 0e0]",
             "leave `velocity` out",
@@ -414,7 +420,8 @@ fn errors_of_bodies_stand_at_their_place() {
             "",
         ),
         (
-            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\nposition = §[0, 0, 0.75]\n[[contact]]\nsupport = \"table\"\nbody = \"b\""),
+            format!("[[body]]\nname = \"b\"\n{sphere}\nmass = 1\nposition = §[0, 0, 0.75]\n[[contact]]\nsupport = \
+                \"table\"\nbody = \"b\""),
             "body.b.position",
             "reaches the support \"table\" at the start: its smallest gap is -2.5",
             "more than 2.5",
@@ -480,7 +487,8 @@ fn an_error_shows_its_line_and_its_fix() {
 
 #[test]
 fn json_errors_stand_at_their_place() {
-    let text = "{\n  \"time\": {\"end\": 1, \"sample\": 0.1},\n  \"body\": [{\"shape\": {\"points\": []}, \"colour\": null}]\n}";
+    let text = "{\n  \"time\": {\"end\": 1, \"sample\": 0.1},\n  \"body\": [{\"shape\": {\"points\": []}, \"colour\": \
+        null}]\n}";
     let found = errors("scene.json", text, &[]);
     let places: Vec<(usize, usize, &str)> =
         found.into_iter().map(|error| (error.line, error.column, error.key.as_str())).collect();

@@ -135,12 +135,14 @@ fn a_start_within_digits_of_its_joints_is_put_on_them() {
 fn parallelogram(last: &str) -> String {
     let link = |name: &str, [x, z]: [f64; 2], size: &str| {
         format!(
-            "[[body]]\nname = \"{name}\"\nposition = [{x:?}, 0, {z:?}]\nshape = {{ box = {{ size = {size} }} }}\nmass = 1\n"
+            "[[body]]\nname = \"{name}\"\nposition = [{x:?}, 0, {z:?}]\nshape = {{ box = {{ size = {size} }} }}\nmass \
+                = 1\n"
         )
     };
     let hinge = |name: &str, between: [&str; 2], points: [[f64; 3]; 2]| {
         format!(
-            "[[joint]]\nname = \"{name}\"\nbetween = {between:?}\nkind = \"hinge\"\naxis = [0, 1, 0]\npoints = {points:?}\n"
+            "[[joint]]\nname = \"{name}\"\nbetween = {between:?}\nkind = \"hinge\"\naxis = [0, 1, 0]\npoints = \
+                {points:?}\n"
         )
     };
     [
@@ -182,7 +184,8 @@ fn fourth_hinge_of_a_loop_in_a_plane_is_told_and_moves_as_the_fix_says() {
 #[test]
 fn joint_at_a_pin_is_told_to_take_its_place() {
     let pinned = BOXES.replacen("mass = 1\n", "mass = 1\npin = [0, 0, 0.1]\n", 1);
-    let ball = "§[[joint]]\nname = \"j\"\nbetween = [\"a\", \"space\"]\nkind = \"ball\"\npoints = [[0, 0, 0.1], [0, 0, 0.1]]\n";
+    let ball = "§[[joint]]\nname = \"j\"\nbetween = [\"a\", \"space\"]\nkind = \"ball\"\npoints = [[0, 0, 0.1], [0, \
+        0, 0.1]]\n";
     assert_error(&format!("{TIME}{pinned}{ball}"), "joint.j", "3 of its 3 equations", "a pin holds a point already");
 }
 

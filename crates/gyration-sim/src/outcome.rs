@@ -308,7 +308,8 @@ impl Stop {
             Quantity::Resistance => (
                 Reason::Unresisted,
                 format!("nothing resists the motion of body {body:?}, which has no inertia"),
-                "Give it `inclusion = { inertia = true }`, or look for sizes and viscosities out of all proportion.".to_string(),
+                "Give it `inclusion = { inertia = true }`, or look for sizes and viscosities out of all \
+                    proportion.".to_string(),
             ),
             Quantity::Balance => (
                 Reason::Unresisted,
@@ -332,7 +333,8 @@ impl Stop {
             ),
             Quantity::Elements => (
                 Reason::Unresolved,
-                format!("the form of body {body:?} is too extreme for its boundary elements{}", by_estimate(left.value)),
+                format!("the form of body {body:?} is too extreme for its boundary \
+                    elements{}", by_estimate(left.value)),
                 "Give it more `inclusion.triangles`, a mesh of more even triangles, or a stiffer material.".to_string(),
             ),
             Quantity::Interpolation => (
@@ -342,7 +344,8 @@ impl Stop {
                      more than inclusion.tolerance",
                     left.value
                 ),
-                "Give it a smaller `inclusion.spacing` (the error falls with its square), or a larger `inclusion.tolerance`."
+                "Give it a smaller `inclusion.spacing` (the error falls with its square), or a larger \
+                    `inclusion.tolerance`."
                     .to_string(),
             ),
             Quantity::Formula { of, undefined } => {

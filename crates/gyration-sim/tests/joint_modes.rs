@@ -119,7 +119,8 @@ fn stops_and_drives_of_a_hinge_are_its_stiffness_and_resistance() {
 fn parallelogram_swings_as_a_pendulum_and_its_coupler_spins_freely() {
     let (m, n) = (2.0, 3.0);
     let coupler = format!(
-        "[[body]]\nname = \"c\"\nposition = [0.4, 0, -1]\nshape = {{ box = {{ size = [0.8, 0.1, 0.1] }} }}\nmass = {n}\n"
+        "[[body]]\nname = \"c\"\nposition = [0.4, 0, -1]\nshape = {{ box = {{ size = [0.8, 0.1, 0.1] }} }}\nmass = \
+            {n}\n"
     );
     let ball = |name: &str, crank: &str, x: f64| {
         format!(
@@ -159,7 +160,8 @@ fn welded_bodies_move_as_one_piece() {
         let spring = |body: &str, at: [f64; 3], from: [f64; 3], anchor: [f64; 3]| {
             let point = [0, 1, 2].map(|k| at[k] - from[k]);
             format!(
-                "[[body.spring]]\npoint = {point:?}\nanchor = {anchor:?}\nstiffness = 4000\nrest_length = 0.2\n# {body}\n"
+                "[[body.spring]]\npoint = {point:?}\nanchor = {anchor:?}\nstiffness = 4000\nrest_length = 0.2\n# \
+                    {body}\n"
             )
         };
         [
@@ -202,7 +204,8 @@ fn soft_body_on_a_ball_has_the_modes_of_a_pinned_one() {
     };
     let pinned = of_body(&block("pin = [0, 0, 0.15]\n"));
     let joined = of_body(&block(
-        "[[joint]]\nname = \"b\"\nbetween = [\"soft\", \"space\"]\nkind = \"ball\"\npoints = [[0, 0, 0.15], [0, 0, 0]]\n",
+        "[[joint]]\nname = \"b\"\nbetween = [\"soft\", \"space\"]\nkind = \"ball\"\npoints = [[0, 0, 0.15], [0, 0, \
+            0]]\n",
     ));
     assert_eq!((pinned.len(), joined.len()), (8, 8));
     for (pinned, joined) in pinned.iter().zip(&joined) {

@@ -335,7 +335,8 @@ proptest! {
         torque in prop::array::uniform3(-0.2..0.2),
     ) {
         let material = "material = { mooney_rivlin = { c1 = 3e3, c2 = 1e3";
-        let kind = if incompressible { format!("{material} }} }}\nisochoric = true") } else { format!("{material}, bulk = 2e4 }} }}") };
+        let kind = if incompressible { format!("{material} }} }}\nisochoric = \
+            true") } else { format!("{material}, bulk = 2e4 }} }}") };
         let mut run = stepper(&contracting(&kind));
         let load = Applied { force: force.into(), moment: Mat3::from_row_slice(&moment), torque: torque.into() };
         run.apply(0, load).unwrap();

@@ -107,7 +107,8 @@ impl StudyError {
 
     /// A folder that is divided into shards, where one table was meant.
     pub(crate) fn shards_there(path: &Path) -> Self {
-        let fix = "join them by `gyration study STUDY merge`, go on with one by --shard k/n --resume, or choose another folder by -o";
+        let fix = "join them by `gyration study STUDY merge`, go on with one by --shard k/n --resume, or choose \
+            another folder by -o";
         Self::Shards { path: path.to_owned(), what: "it holds shards of a study".into(), fix: fix.into() }
     }
 

@@ -192,7 +192,8 @@ fn a_number_that_is_told_beside_one_that_is_not_has_its_whole_error() {
         let measured = [gaps[0] * factors[0], gaps[1] * factors[1]];
         let deviations = [0.01 * gaps[0], 0.01 * gaps[1]];
         fit(&format!(
-            "scene = \"ball.toml\"\n{}[[gap]]\nkey = \"body.ball.density\"\n{at}\ngap = {measured:?}\ndeviation = {deviations:?}\n",
+            "scene = \"ball.toml\"\n{}[[gap]]\nkey = \"body.ball.density\"\n{at}\ngap = {measured:?}\ndeviation = \
+                {deviations:?}\n",
             far.replace("= 0 }", "= 0, \"contact.0.repulsion.d0\" = 1 }"),
         ))
     };

@@ -88,7 +88,8 @@ fn two_parameters_do_not_set_one_key() {
     let text = "scene = \"ball.toml\"\n[parameter.a]\nkey = \"body.0.density\"\nvalues = [1, 2]\n\
                 [parameter.b]\nkey = \"body.ball.density\"\nvalues = [1, 2]\n";
     refused(text, 6, "parameter.b.key", ["the parameter \"a\" already sets", "one of the two"]);
-    let text = "scene = \"ball.toml\"\n[set]\n\"body.ball.density\" = 3\n[parameter.b]\nkey = \"body.ball.density\"\nvalues = [1, 2]\n";
+    let text = "scene = \"ball.toml\"\n[set]\n\"body.ball.density\" = 3\n[parameter.b]\nkey = \
+        \"body.ball.density\"\nvalues = [1, 2]\n";
     refused(text, 5, "parameter.b.key", ["[set] already sets", "one of the two"]);
     // One within the other: the later would hide the earlier.
     let text = "scene = \"ball.toml\"\n[parameter.a]\nkey = \"body.ball.position.2\"\nvalues = [1, 2]\n\

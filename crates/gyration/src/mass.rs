@@ -61,7 +61,8 @@ pub enum MassError {
     },
     /// J ≠ Jᵀ.
     #[error(
-        "Euler tensor is not symmetric: entry ({row}, {column}) is {value} and ({column}, {row}) is {mirrored} (counted from 0)"
+        "Euler tensor is not symmetric: entry ({row}, {column}) is {value} and ({column}, {row}) is {mirrored} \
+            (counted from 0)"
     )]
     NotSymmetric {
         /// Row of the first entry, from 0.

@@ -14,16 +14,24 @@ use std::process::{Command, ExitCode};
 const PAGES: [&str; 2] = ["ARCHITECTURE.md", "CONTRIBUTING.md"];
 
 /// How many lines of code, equations and tables, which are not filled, may still be wider; to be lowered as they go.
-const WIDE: usize = 156;
+const WIDE: usize = 124;
 
 /// Fills the files named, or all.
 pub fn run(names: &[&str]) -> ExitCode {
     let outcome = if names.is_empty() { files(&["."]) } else { Ok(names.iter().map(PathBuf::from).collect()) };
     let filled = outcome.and_then(|files| files.iter().try_fold(0, |count, file| Ok(count + usize::from(fill(file)?))));
-    match filled {
-        Ok(count) => {
+    // Lines are counted over all files.
+    let wide = if names.is_empty() { faults_of_all().map(|found| too_wide(&found)) } else { Ok(None) };
+    match filled.and_then(|count| Ok((count, wide?))) {
+        Ok((count, wide)) => {
             println!("{count} files filled anew");
-            ExitCode::SUCCESS
+            match wide {
+                None => ExitCode::SUCCESS,
+                Some(fault) => {
+                    eprintln!("xtask: {fault}");
+                    ExitCode::FAILURE
+                }
+            }
         }
         Err(reason) => {
             eprintln!("xtask: {reason}");
@@ -34,13 +42,9 @@ pub fn run(names: &[&str]) -> ExitCode {
 
 /// Complains about files whose text is not filled, and about more lines that are too wide than there were.
 pub fn check(steps: &mut Steps) {
-    let found = files(&["."]).and_then(|files| files.iter().map(|file| faults(file)).collect::<Result<Vec<_>, _>>());
-    match found {
+    match faults_of_all() {
         Ok(found) => {
-            let wide: Vec<String> = found.iter().flat_map(|faults| faults.wide.clone()).collect();
-            if wide.len() > WIDE {
-                steps.complain(format!("{} lines are too wide, {WIDE} may be: {}", wide.len(), wide.join(", ")));
-            }
+            too_wide(&found).into_iter().for_each(|fault| steps.complain(fault));
             found.into_iter().filter_map(|faults| faults.not_filled).for_each(|fault| steps.complain(fault));
         }
         Err(reason) => steps.complain(reason),
@@ -84,6 +88,17 @@ struct FileFaults {
     not_filled: Option<String>,
     /// `file:line` of the lines that are too wide.
     wide: Vec<String>,
+}
+
+/// What is wrong with each file.
+fn faults_of_all() -> Result<Vec<FileFaults>, String> {
+    files(&["."])?.iter().map(|file| faults(file)).collect()
+}
+
+/// That more lines are too wide than may be.
+fn too_wide(found: &[FileFaults]) -> Option<String> {
+    let wide: Vec<&str> = found.iter().flat_map(|faults| &faults.wide).map(String::as_str).collect();
+    (wide.len() > WIDE).then(|| format!("{} lines are too wide, {WIDE} may be: {}", wide.len(), wide.join(", ")))
 }
 
 fn faults(file: &Path) -> Result<FileFaults, String> {

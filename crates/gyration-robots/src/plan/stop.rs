@@ -30,7 +30,8 @@ pub(super) fn limits(connection: &Connection, report: &mut Report) -> Option<[f6
     } else if connection.kind == ConnectionKind::Hinge && (low < -PI || high > PI) {
         "the angle of a hinge is from −π to π in a scene"
     } else if low >= 0.0 || high <= 0.0 {
-        "the joint starts at zero, and a stop pushes back before the limit: start elsewhere, or write limits around zero"
+        "the joint starts at zero, and a stop pushes back before the limit: start elsewhere, or write limits around \
+            zero"
     } else {
         return Some(limits);
     };

@@ -92,7 +92,8 @@ fn joints<'a, 'i>(
         let (Some(parent), Some(child)) = (parent, child) else { continue };
         if let Some(first) = found.get(child) {
             let message = format!(
-                "the link \"{child}\" is the child of two joints, \"{}\" and \"{name}\": a loop, and URDF has trees only",
+                "the link \"{child}\" is the child of two joints, \"{}\" and \"{name}\": a loop, and URDF has trees \
+                    only",
                 first.name
             );
             report.fault(node, message, "leave one out, and close the loop in the scene by a [[joint]]");

@@ -211,7 +211,8 @@ impl ImmersedBody<'_> {
         match History::of_sphere(*radius, fluid, end, error) {
             Ok(history) => Some(Some(history)),
             Err(unresolved) => {
-                let help = "look at `fluid.viscosity`, `fluid.density`, the radius and `time.end`: R²ρ/η is the time in question";
+                let help = "look at `fluid.viscosity`, `fluid.density`, the radius and `time.end`: R²ρ/η is the time \
+                    in question";
                 reporter.note(&key.key("history"), unresolved.to_string(), help);
                 None
             }

@@ -203,12 +203,17 @@ macro_rules! immersed {
 #[rustfmt::skip]
 pub(super) static IMMERSED_FIELDS: [BodyField; 11] = [
     immersed!("drag", "N", "force of the fluid, without buoyancy", Vector, NO_VECTOR, |immersed| immersed.drag),
-    immersed!("rotlet", "N m", "torque of the fluid about the centre of the volume", Vector, NO_VECTOR, |immersed| immersed.rotlet),
+    immersed!("rotlet", "N m", "torque of the fluid about the centre of the \
+        volume", Vector, NO_VECTOR, |immersed| immersed.rotlet),
     immersed!("stresslet", "N m", "stresslet", Matrix, NO_MATRIX, |immersed| immersed.stresslet),
-    immersed!("particle_stress", "Pa", "particle stress, per volume of particle", Matrix, NO_MATRIX, |immersed| immersed.particle_stress),
-    immersed!("intrinsic_viscosity", "1", "increment of the viscosity of a dilute suspension, over that of the fluid and the volume fraction", Scalar, f64::NAN, |immersed| immersed.intrinsic_viscosity),
-    immersed!("normal_stress_1", "Pa", "first normal stress difference in simple shear, over the volume fraction", Scalar, f64::NAN, |immersed| immersed.normal_stress_differences[0]),
-    immersed!("normal_stress_2", "Pa", "second normal stress difference in simple shear, over the volume fraction", Scalar, f64::NAN, |immersed| immersed.normal_stress_differences[1]),
+    immersed!("particle_stress", "Pa", "particle stress, per volume of \
+        particle", Matrix, NO_MATRIX, |immersed| immersed.particle_stress),
+    immersed!("intrinsic_viscosity", "1", "increment of the viscosity of a dilute suspension, over that of the fluid \
+        and the volume fraction", Scalar, f64::NAN, |immersed| immersed.intrinsic_viscosity),
+    immersed!("normal_stress_1", "Pa", "first normal stress difference in simple shear, over the volume \
+        fraction", Scalar, f64::NAN, |immersed| immersed.normal_stress_differences[0]),
+    immersed!("normal_stress_2", "Pa", "second normal stress difference in simple shear, over the volume \
+        fraction", Scalar, f64::NAN, |immersed| immersed.normal_stress_differences[1]),
     immersed!("dissipated_power", "W", "power that the disturbance of the flow turns into heat", Scalar, f64::NAN, |immersed| immersed.dissipated_power),
     immersed!("semi_axes", "m", "semi-axes of an ellipsoid, descending", Vector, NO_VECTOR, |immersed| immersed.semi_axes),
     immersed!("inclination", "rad", "angle of the longest axis from the direction of a simple shear", Scalar, f64::NAN, |immersed| immersed.inclination),

@@ -45,7 +45,8 @@ fn steps(summary: &RunSummary) -> String {
         Some(long) => format!(" in {}", duration(long)),
     };
     format!(
-        "time       {} s simulated{wall}\nsteps      {} ({explicit} explicit, {implicit} implicit), {rejected} rejected",
+        "time       {} s simulated{wall}\nsteps      {} ({explicit} explicit, {implicit} implicit), {rejected} \
+            rejected",
         significant(summary.time, 7),
         explicit + implicit,
     )

@@ -86,7 +86,8 @@ fn a_prescribed_contraction_keeps_its_volume_while_it_varies() {
 fn a_kink_that_leaves_another_one_is_told() {
     let ramp = |to: f64, duration: f64| {
         format!(
-            "{{ ramp = {{ from = [[1, 0, 0], [0, 1, 0], [0, 0, 1]], to = [[1, 0, 0], [0, 1, 0], [0, 0, {to:?}]], duration = {duration:?} }} }}"
+            "{{ ramp = {{ from = [[1, 0, 0], [0, 1, 0], [0, 0, 1]], to = [[1, 0, 0], [0, 1, 0], [0, 0, {to:?}]], \
+                duration = {duration:?} }} }}"
         )
     };
     let by_duration = |other: f64, end: f64| {

@@ -47,7 +47,8 @@ fn short_impacts_are_seen() {
                 let derivative = derivatives.at_end().map_or(f64::NAN, |row| row[0]);
                 let apart = (derivative / expected - 1.0).abs();
                 println!(
-                    "{radius} m from {height} m, {method}: d vz / d {key} = {derivative:e}, by runs {expected:e}: {apart:.1e}"
+                    "{radius} m from {height} m, {method}: d vz / d {key} = {derivative:e}, by runs {expected:e}: \
+                        {apart:.1e}"
                 );
                 worst = if apart > worst || apart.is_nan() { apart } else { worst };
             }

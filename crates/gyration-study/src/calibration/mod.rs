@@ -92,7 +92,8 @@ pub enum CalibrationError {
     Load(#[from] LoadError),
     /// A measurement that the start of the search cannot explain at all.
     #[error(
-        "{place}: nothing can be measured where the search begins: {reason}\n  fix: give the numbers under [fit] a `start` at which it can, or mend the scene"
+        "{place}: nothing can be measured where the search begins: {reason}\n  fix: give the numbers under [fit] a \
+            `start` at which it can, or mend the scene"
     )]
     Start {
         /// Which table and row.
@@ -114,7 +115,8 @@ pub enum CalibrationError {
     },
     /// The search came to no end.
     #[error(
-        "the search found no least squares: {0}\n  fix: start it nearer, fit fewer numbers, or look for a measurement that cannot be"
+        "the search found no least squares: {0}\n  fix: start it nearer, fit fewer numbers, or look for a measurement \
+            that cannot be"
     )]
     Search(String),
 }

@@ -220,7 +220,8 @@ impl Calibration {
                 let moves: Vec<String> = parts.iter().map(|(name, part)| format!("{name} ({part:+.3})")).collect();
                 let names: Vec<String> = parts.iter().map(|(name, _)| format!("`{name}`")).collect();
                 format!(
-                    "{} cannot be told apart: changes in the ratio {} leave everything measured as it is (relative changes)",
+                    "{} cannot be told apart: changes in the ratio {} leave everything measured as it is (relative \
+                        changes)",
                     names.join(" and "),
                     moves.join(" : ")
                 )

@@ -49,7 +49,8 @@ pub enum ResistanceError {
     },
     /// H ≠ Hᵀ.
     #[error(
-        "the matrix is not symmetric: entry ({row}, {column}) is {value} and ({column}, {row}) is {mirrored} (counted from 0)"
+        "the matrix is not symmetric: entry ({row}, {column}) is {value} and ({column}, {row}) is {mirrored} (counted \
+            from 0)"
     )]
     NotSymmetric {
         /// Row, from 0.
@@ -63,7 +64,8 @@ pub enum ResistanceError {
     },
     /// H ≠ −Hᵀ.
     #[error(
-        "the matrix is not skew: entry ({row}, {column}) is {value} and ({column}, {row}) is {mirrored} (counted from 0)"
+        "the matrix is not skew: entry ({row}, {column}) is {value} and ({column}, {row}) is {mirrored} (counted from \
+            0)"
     )]
     NotSkew {
         /// Row, from 0.
