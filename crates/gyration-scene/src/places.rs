@@ -4,10 +4,10 @@ use crate::file::CopyGrid;
 use crate::quantity::si;
 use crate::read;
 use crate::suggest;
-use crate::table::TableFault;
+use crate::table::{self, RowFault, TableFault};
 use gyration::kinematics::Quaternion;
 use gyration::tensor::Vec3;
-use gyration_files::{REMARK, line_of_row};
+use gyration_files::line_of_row;
 use std::path::Path;
 
 /// The most copies of a body.
@@ -50,40 +50,27 @@ const IN_WORDS: &str = "x,y,z`, `x,y,z,qw,qx,qy,qz`, and so on with `vx,vy,vz` a
 /// a quaternion that is zero, no row.
 pub(crate) fn read_places(path: &Path) -> Result<Vec<CopyPlace>, TableFault> {
     let bytes = read::bytes(path)?;
-    let content = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
+    let content = table::content(&bytes);
     rows(content).map_err(|(start, reason)| {
         let line = if start < content.len() { line_of_row(content, start) } else { 1 };
         TableFault::Malformed { columns: IN_WORDS.to_owned(), path: path.to_owned(), line, reason }
     })
 }
 
-/// Where a row begins, behind the one before it, and what is wrong with it.
-type RowFault = (usize, String);
-
 fn rows(content: &[u8]) -> Result<Vec<CopyPlace>, RowFault> {
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .comment(Some(REMARK))
-        .trim(csv::Trim::All)
-        .from_reader(content);
-    let begin = |position: Option<&csv::Position>| position.map_or(0, |position| position.byte() as usize);
-    // Of a text in memory nothing else can be wrong.
-    let no_text = |error: csv::Error| (begin(error.position()), "it is not valid UTF-8 text".to_owned());
-    let mut records = reader.records();
-    let header = records.next().ok_or_else(|| (content.len(), "the file is empty".to_owned()))?.map_err(no_text)?;
-    let columns = Columns::of(&header).map_err(|reason| (begin(header.position()), reason))?;
+    let mut records = table::records(content);
+    let (begin, header) = records.next().ok_or_else(|| (content.len(), "the file is empty".to_owned()))??;
+    let columns = Columns::of(&header).map_err(|reason| (begin, reason))?;
     let mut places = Vec::new();
     for record in records {
-        let record = record.map_err(no_text)?;
-        let start = begin(record.position());
+        let (start, record) = record?;
         if places.len() == MOST_COPIES {
             return Err((start, format!("more than {MOST_COPIES} rows")));
         }
         places.push(columns.place(&record).map_err(|reason| (start, reason))?);
     }
     if places.is_empty() {
-        return Err((begin(header.position()), "there is no row behind the line of names".to_owned()));
+        return Err((begin, "there is no row behind the line of names".to_owned()));
     }
     Ok(places)
 }

@@ -74,6 +74,27 @@ pub(crate) fn read_vectors(path: &Path, symbol: char, interpolation: Interpolati
     read_table(path, symbol, &VECTOR, interpolation)
 }
 
+/// Where a row begins, behind the one before it, and what is wrong with it.
+pub(crate) type RowFault = (usize, String);
+
+/// The content of a table, without a mark of its encoding.
+pub(crate) fn content(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes)
+}
+
+/// The rows of a table, each with the byte behind the row before it: fields without the space around them, remarks left
+/// out.
+pub(crate) fn records(content: &[u8]) -> impl Iterator<Item = Result<(usize, csv::StringRecord), RowFault>> {
+    let mut reader = csv::ReaderBuilder::new();
+    reader.has_headers(false).flexible(true).comment(Some(REMARK)).trim(csv::Trim::All);
+    let start = |position: Option<&csv::Position>| position.map_or(0, |position| position.byte() as usize);
+    reader.from_reader(content).into_records().map(move |record| match record {
+        Ok(record) => Ok((start(record.position()), record)),
+        // Of a text in memory nothing else can be wrong.
+        Err(error) => Err((start(error.position()), "it is not valid UTF-8 text".to_owned())),
+    })
+}
+
 fn read_table(
     path: &Path,
     symbol: char,
@@ -81,7 +102,7 @@ fn read_table(
     interpolation: Interpolation,
 ) -> Result<TensorTable, TableFault> {
     let bytes = read::bytes(path)?;
-    let content = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
+    let content = content(&bytes);
     let rows = rows(content, entries.len()).map_err(|(start, reason)| {
         let line = line_of_row(content, start);
         let names: Vec<String> = entries.iter().map(|entry| format!(", {symbol}_{entry}")).collect();
@@ -108,23 +129,14 @@ struct WrittenRow {
 }
 
 /// The rows; or what is wrong with the one that begins behind a byte.
-fn rows(content: &[u8], entries: usize) -> Result<Vec<WrittenRow>, (usize, String)> {
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .comment(Some(REMARK))
-        .trim(csv::Trim::All)
-        .from_reader(content);
+fn rows(content: &[u8], entries: usize) -> Result<Vec<WrittenRow>, RowFault> {
     let mut rows = Vec::new();
-    let start = |position: Option<&csv::Position>| position.map_or(0, |position| position.byte() as usize);
-    for (index, record) in reader.records().enumerate() {
-        // Of a text in memory nothing else can be wrong.
-        let record = record.map_err(|error| (start(error.position()), "it is not valid UTF-8 text".to_owned()))?;
+    for (index, record) in records(content).enumerate() {
+        let (start, record) = record?;
         // A line of names has no number.
         if index == 0 && record.len() == entries + 1 && record.iter().all(|field| field.parse::<f64>().is_err()) {
             continue;
         }
-        let start = start(record.position());
         let (time, value) = row(&record, entries).map_err(|reason| (start, reason))?;
         rows.push(WrittenRow { start, time, value });
     }

@@ -18,6 +18,7 @@ mod joint_modes;
 mod joint_survey;
 mod joints;
 mod lattices;
+mod long_bodies;
 mod meetings;
 mod modes;
 mod neighbours;

@@ -18,26 +18,25 @@ const WIDE: usize = 124;
 
 /// Fills the files named, or all.
 pub fn run(names: &[&str]) -> ExitCode {
-    let outcome = if names.is_empty() { files(&["."]) } else { Ok(names.iter().map(PathBuf::from).collect()) };
-    let filled = outcome.and_then(|files| files.iter().try_fold(0, |count, file| Ok(count + usize::from(fill(file)?))));
-    // Lines are counted over all files.
-    let wide = if names.is_empty() { faults_of_all().map(|found| too_wide(&found)) } else { Ok(None) };
-    match filled.and_then(|count| Ok((count, wide?))) {
-        Ok((count, wide)) => {
+    match filled(names) {
+        Ok(count) => {
             println!("{count} files filled anew");
-            match wide {
-                None => ExitCode::SUCCESS,
-                Some(fault) => {
-                    eprintln!("xtask: {fault}");
-                    ExitCode::FAILURE
-                }
-            }
+            ExitCode::SUCCESS
         }
         Err(reason) => {
             eprintln!("xtask: {reason}");
             ExitCode::FAILURE
         }
     }
+}
+
+/// Fills the files named, or all; how many have changed, or that more lines of all are too wide than may be.
+fn filled(names: &[&str]) -> Result<usize, String> {
+    if !names.is_empty() {
+        return names.iter().try_fold(0, |count, name| Ok(count + usize::from(fill(Path::new(name))?)));
+    }
+    let count = files(&["."])?.iter().try_fold(0, |count, file| Ok::<_, String>(count + usize::from(fill(file)?)))?;
+    too_wide(&faults_of_all()?).map_or(Ok(count), Err)
 }
 
 /// Complains about files whose text is not filled, and about more lines that are too wide than there were.

@@ -12,7 +12,6 @@ use crate::island::paths::Paths;
 use crate::island::{Island, Setting};
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
-use gyration::body::BodyKind;
 use gyration::kinematics::Quaternion;
 use gyration::neighbours::BodyPair;
 use gyration::pair::EDGE;
@@ -35,10 +34,10 @@ impl Island {
             integrator.interpolate(time, &mut sampled.bodies, &mut sampled.works);
             for (body, nodes) in nodes.iter_mut().enumerate() {
                 nodes[k].center = sampled.motion(model, body).placement.position;
-                if let (BodyKind::Rigid(_), attitude) = (&model.bodies[body].kind, model.slots(body).attitude())
-                    && !attitude.is_empty()
-                {
-                    nodes[k].quaternion = Quaternion::read(&sampled.bodies[attitude]);
+                // A body that deforms is never apart from another, and a mass point does not turn.
+                let attitude = &sampled.bodies[model.slots(body).attitude()];
+                if let Some(quaternion) = attitude.first_chunk().filter(|_| attitude.len() == 4) {
+                    nodes[k].quaternion = Quaternion(*quaternion);
                 }
             }
         }
@@ -56,13 +55,14 @@ impl Island {
     pub fn parts(&self) -> Components {
         let (model, ahead) = (self.model(), AHEAD * self.integrator.next_size());
         let stays = |pair: &BodyPair| {
+            let Some(cutoff) = model.cutoff(pair) else { return false };
             let [one, other] = pair.bodies.map(|body| &self.step_ends[body]);
-            model.cutoff(pair).is_some_and(|cutoff| Approach::of(one, other).least(ahead) <= (1.0 + EDGE) * cutoff)
-                && !model.reach(pair).is_some_and(|reach| {
-                    let solids = pair.bodies.map(|body| &*model.bodies[body].solid);
-                    let [one, other] = [one, other].map(|end| PathBound::ahead(end, ahead));
-                    one.stay_apart(&other, (1.0 + EDGE) * reach, solids)
-                })
+            if Approach::of(one, other).least(ahead) > (1.0 + EDGE) * cutoff.centers {
+                return false;
+            }
+            let solids = pair.bodies.map(|body| &*model.bodies[body].solid);
+            let [one, other] = [one, other].map(|end| PathBound::ahead(end, ahead));
+            !one.stay_apart(&other, (1.0 + EDGE) * cutoff.surfaces, solids)
         };
         let near = may_meet(model, &self.step_ends, ahead);
         let joined = near.iter().filter(|pair| stays(pair)).map(|pair| pair.bodies).chain(model.endless_chain());

@@ -17,6 +17,7 @@
 use crate::island::step_end::StepEnd;
 use gyration::body::Solid;
 use gyration::kinematics::Quaternion;
+use gyration::model::Cutoff;
 use gyration::neighbours::Bounds;
 use gyration::tensor::{Mat3, Vec3};
 use nalgebra::{SMatrix, SVector};
@@ -105,19 +106,24 @@ impl PathBound {
         self.from.lerp(&self.to, (time - self.start) / (self.end - self.start))
     }
 
-    /// Whether two bodies may be closer than `reach` [m] at a time that both steps have.
-    pub fn may_meet(&self, other: &Self, reach: f64) -> bool {
+    /// Whether two bodies may be within reach of each other at a time that both steps have.
+    pub fn may_meet(&self, other: &Self, cutoff: &Cutoff, solids: [&Solid; 2]) -> bool {
+        self.centers_may_meet(other, cutoff.centers) && !self.stay_apart(other, cutoff.surfaces, solids)
+    }
+
+    /// Whether the centres of two bodies may be closer than a distance [m] at a time that both steps have.
+    fn centers_may_meet(&self, other: &Self, distance: f64) -> bool {
         let (begin, end) = (self.start.max(other.start), self.end.min(other.end));
         if begin >= end {
             return false;
         }
         let apart = |time: f64| self.chord(time) - other.chord(time);
-        nearest(&apart(begin), &apart(end)) <= reach + (self.deviation + other.deviation)
+        nearest(&apart(begin), &apart(end)) <= distance + (self.deviation + other.deviation)
     }
 
-    /// Whether the shapes of two bodies stay farther apart than `reach` [m] at all times that both steps have, along an
-    /// axis of one of them or the line of their centres.
-    pub fn stay_apart(&self, other: &Self, reach: f64, solids: [&Solid; 2]) -> bool {
+    /// Whether the shapes of two bodies stay farther apart than a distance [m] at all times that both steps have, along
+    /// an axis of one of them or the line of their centres.
+    pub fn stay_apart(&self, other: &Self, distance: f64, solids: [&Solid; 2]) -> bool {
         let (begin, end) = (self.start.max(other.start), self.end.min(other.end));
         if begin >= end {
             return true;
@@ -126,7 +132,7 @@ impl PathBound {
         let slack = self.slack(solids[0]) + other.slack(solids[1]);
         let is_apart = |axis: Vec3| {
             let axis = if axis.dot(&from) < 0.0 { -axis } else { axis };
-            let room = axis.dot(&from).min(axis.dot(&to)) - slack - reach;
+            let room = axis.dot(&from).min(axis.dot(&to)) - slack - distance;
             let extents = || {
                 let own = solids[0].extent(&self.orientation.tr_mul(&axis));
                 own + solids[1].extent(&-other.orientation.tr_mul(&axis))
@@ -199,12 +205,12 @@ mod tests {
         // Crosses the path of the first at x = 2: at the same time, or two seconds later.
         for (delay, meets) in [(0.0, true), (2.0, false)] {
             let other = straight((0.0, 4.0), Vec3::new(2.0, -2.0 - delay, 0.0), Vec3::y());
-            assert_eq!(one.may_meet(&other, 0.1), meets, "{delay}");
-            assert_eq!(other.may_meet(&one, 0.1), meets, "{delay}");
+            assert_eq!(one.centers_may_meet(&other, 0.1), meets, "{delay}");
+            assert_eq!(other.centers_may_meet(&one, 0.1), meets, "{delay}");
         }
         let other = straight((0.0, 1.9), Vec3::new(2.0, -2.0, 0.0), Vec3::y());
-        assert!(!one.may_meet(&other, 0.1) && one.may_meet(&other, 0.2));
-        assert!(!one.may_meet(&straight((4.0, 5.0), Vec3::zeros(), Vec3::x()), 10.0));
+        assert!(!one.centers_may_meet(&other, 0.1) && one.centers_may_meet(&other, 0.2));
+        assert!(!one.centers_may_meet(&straight((4.0, 5.0), Vec3::zeros(), Vec3::x()), 10.0));
     }
 
     /// A plank of 1 × 0.1 × 0.01 m.
@@ -219,7 +225,7 @@ mod tests {
         let plank = plank();
         let still = bound((0.0, 1.0), |_| Vec3::zeros());
         let beside = bound((0.5, 1.5), |_| Vec3::new(0.2, 0.3, 0.0));
-        assert!(still.may_meet(&beside, 1.1), "their spheres overlap");
+        assert!(still.centers_may_meet(&beside, 1.1), "their spheres overlap");
         assert!(still.stay_apart(&beside, 0.19, [&plank; 2]) && !still.stay_apart(&beside, 0.21, [&plank; 2]));
         for (angle, apart) in [(0.01, true), (0.5, false)] {
             // About the third axis by the angle over the step, which moves the ends by half of it.

@@ -2,7 +2,7 @@
 
 use crate::island::PathBound;
 use gyration::body::Solid;
-use gyration::model::Model;
+use gyration::model::{Cutoff, Model};
 use gyration::neighbours::BodyPair;
 use std::cmp::Ordering;
 
@@ -34,27 +34,21 @@ impl Ord for Meeting {
 
 /// Two bodies that may come within reach of each other.
 pub(super) struct Approaching<'a> {
-    /// The distance of their centres from which on they do nothing to each other [m].
-    cutoff: f64,
-    /// That of their surfaces [m].
-    reach: f64,
+    cutoff: Cutoff,
     solids: [&'a Solid; 2],
 }
 
 impl<'a> Approaching<'a> {
     /// The two of a pair, in an order; none if nothing ever keeps them apart.
     pub fn of(model: &'a Model, pair: &BodyPair, order: [usize; 2]) -> Option<Self> {
-        let solids = order.map(|body| &*model.bodies[body].solid);
-        Some(Self { cutoff: model.cutoff(pair)?, reach: model.reach(pair)?, solids })
+        Some(Self { cutoff: model.cutoff(pair)?, solids: order.map(|body| &*model.bodies[body].solid) })
     }
 
     /// When a step of the first and the first of the steps of the second begin within which they may be within reach.
     pub fn first_meeting(&self, bound: &PathBound, others: &[PathBound]) -> Option<f64> {
         let from = others.partition_point(|other| other.end <= bound.start);
-        let beside = others[from..].iter().take_while(|other| other.start < bound.end);
-        let may_meet = |other: &&PathBound| {
-            bound.may_meet(other, self.cutoff) && !bound.stay_apart(other, self.reach, self.solids)
-        };
-        beside.filter(may_meet).map(|other| bound.start.max(other.start)).next()
+        let mut beside = others[from..].iter().take_while(|other| other.start < bound.end);
+        let met = beside.find(|other| bound.may_meet(other, &self.cutoff, self.solids));
+        met.map(|other| bound.start.max(other.start))
     }
 }

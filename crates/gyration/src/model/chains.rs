@@ -45,27 +45,30 @@ impl Model {
         })
     }
 
-    /// The distance of the centres from which on two bodies do nothing to each other by a rule [m]; none if there is
-    /// none, as where one of them deforms.
-    pub fn cutoff(&self, pair: &BodyPair) -> Option<f64> {
-        let solids = self.rigid_solids(pair)?;
-        let of_parts = |parts: [usize; 2]| {
-            let reach = self.rules.all()[pair.rule].reach_between(solids, parts)?;
-            Some(cutoff(reach, [0, 1].map(|end| solids[end].part_radius(parts[end]))))
-        };
-        Solid::parts_of(solids).filter_map(of_parts).reduce(f64::max)
-    }
-
-    /// The distance of their surfaces from which on two bodies do nothing to each other by a rule [m]; none if there is
-    /// none, as where one of them deforms.
-    pub fn reach(&self, pair: &BodyPair) -> Option<f64> {
-        let solids = self.rigid_solids(pair)?;
-        let of_parts = |parts: [usize; 2]| self.rules.all()[pair.rule].reach_between(solids, parts);
-        Solid::parts_of(solids).filter_map(of_parts).reduce(f64::max)
-    }
-
-    fn rigid_solids(&self, pair: &BodyPair) -> Option<[&Solid; 2]> {
+    /// From where on two bodies do nothing to each other by a rule; none if they do everywhere, as where one of them
+    /// deforms.
+    pub fn cutoff(&self, pair: &BodyPair) -> Option<Cutoff> {
         let bodies = pair.bodies.map(|body| &self.bodies[body]);
-        bodies.iter().all(|body| body.affine().is_none()).then(|| bodies.map(|body| &*body.solid))
+        if bodies.iter().any(|body| body.affine().is_some()) {
+            return None;
+        }
+        let solids = bodies.map(|body| &*body.solid);
+        let of_parts = |parts: [usize; 2]| {
+            let surfaces = self.rules.all()[pair.rule].reach_between(solids, parts)?;
+            let centers = cutoff(surfaces, [0, 1].map(|end| solids[end].part_radius(parts[end])));
+            Some(Cutoff { centers, surfaces })
+        };
+        let larger =
+            |a: Cutoff, b: Cutoff| Cutoff { centers: a.centers.max(b.centers), surfaces: a.surfaces.max(b.surfaces) };
+        Solid::parts_of(solids).filter_map(of_parts).reduce(larger)
     }
+}
+
+/// Two distances from each of which on two bodies do nothing to each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cutoff {
+    /// Of the centres of mass [m].
+    pub centers: f64,
+    /// Of the surfaces [m].
+    pub surfaces: f64,
 }

@@ -9,6 +9,8 @@ mod ledger;
 mod part;
 mod parties;
 
+pub use chains::Cutoff;
+
 use crate::acting::{Interacting, Load, PairAt};
 use crate::body::{Body, Slots};
 use crate::contact::Contact;
