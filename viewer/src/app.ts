@@ -259,6 +259,8 @@ export class App implements Listener {
         ...(player.wanted > 0 && { time: player.wanted }),
         ...(shown && shown !== this.tabs.first && { panel: shown }),
       };
+      // A page within another one has no address of its own.
+      if (location.origin === "null" && location.protocol !== "file:") return;
       const hash = hashOf(look, location.hash);
       if (hash === location.hash) return;
       history.replaceState(null, "", hash || location.href.replace(/#.*/, ""));

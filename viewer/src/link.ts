@@ -37,8 +37,8 @@ export function lookIn(hash: string): Look {
     if (value !== null) take(value);
   };
   given("t", (value) => {
-    const time = Number(value);
-    if (value !== "" && Number.isFinite(time)) look.time = time;
+    const time = numberIn(value);
+    if (Number.isFinite(time)) look.time = time;
   });
   given("show", (value) => {
     const names = value.split(",");
@@ -58,10 +58,12 @@ export function lookIn(hash: string): Look {
     look.follow = value === "1";
   });
   given("camera", (value) => {
-    const [x, y, z, tx, ty, tz, ...more] = value.split(",").map((part) => (part === "" ? Number.NaN : +part));
+    const [x, y, z, tx, ty, tz, ...more] = value.split(",").map(numberIn);
     const numbers = [x, y, z, tx, ty, tz];
     if (more.length > 0 || !numbers.every(Number.isFinite)) return;
-    if (Math.hypot(x - tx, y - ty, z - tz) > 0) look.camera = { position: [x, y, z], target: [tx, ty, tz] };
+    const far = Math.hypot(x - tx, y - ty, z - tz);
+    if (far > 0 && far < Number.POSITIVE_INFINITY)
+      look.camera = { position: [x, y, z], target: [tx, ty, tz] };
   });
   given("panel", (value) => {
     look.panel = value;
@@ -69,12 +71,17 @@ export function lookIn(hash: string): Look {
   return look;
 }
 
+/** A decimal number; NaN for all else that the language would take for one. */
+function numberIn(text: string): number {
+  return /^[-+.\deE]+$/.test(text) ? Number(text) : Number.NaN;
+}
+
 /** The address of a look; what others have written behind `#` stays. */
 export function hashOf(look: Look, before: string): string {
   const others = before
     .replace(/^#/, "")
     .split("&")
-    .filter((part) => part !== "" && !OWN.includes(part.split("=")[0]));
+    .filter((part) => part !== "" && ![...new URLSearchParams(part).keys()].some((key) => OWN.includes(key)));
   const { time, show, color, body, group, follow, camera, panel } = look;
   const far = camera ? Math.hypot(...camera.position.map((part, axis) => part - camera.target[axis])) : 0;
   const rounded = (part: number) => (Math.abs(part) < CLOSE * far ? 0 : Number(part.toPrecision(6)));

@@ -32,6 +32,7 @@ export class Picture {
     follow: null,
   };
   private readonly canvas = h("canvas", {
+    role: "img",
     "aria-label": "the bodies in space; shift and arrows turn the view",
     tabindex: 0,
   });

@@ -147,8 +147,9 @@ export class Player {
     this.pause();
     this.wanted = Math.max(0, time);
     this.holds = true;
-    if (this.recording && time <= this.recording.lastTime) this.seek(time);
-    this.changed(null);
+    // A run that is over does not come there.
+    if (this.recording && (time <= this.recording.lastTime || this.recording.isOver)) this.seek(time);
+    else this.changed(null);
   }
 
   /** Goes to the end and stays there; of a run that goes on, to what has come last. */

@@ -2,7 +2,7 @@
 //! group are a class, or where the scene names no group, those of a sort.
 //!
 //! Group and sort are taken from the scene as it was resolved: the first word of `group`, the kind and the word of the
-//! shape. The viewer's page has the same classes (`viewer/src/data/classes.ts`).
+//! shape. Copies of a body, and those of a lattice, are described by it, and copies are a group. The viewer's page has the same classes (`viewer/src/data/classes.ts`).
 
 use serde_json::Value;
 use std::collections::HashMap;
@@ -33,12 +33,16 @@ impl BodyClasses {
         let described = resolved["body"].as_array().map_or(&[][..], Vec::as_slice);
         let by_name: HashMap<&str, &Value> =
             described.iter().filter_map(|body| Some((body["name"].as_str()?, body))).collect();
-        let groups: Vec<Option<&str>> = bodies.clone().map(|(name, _)| group(by_name.get(name)?)).collect();
+        let described = |name: &str| {
+            let of_copy = || by_name.get(name.trim_end_matches(|digit: char| digit.is_ascii_digit()).strip_suffix('-')?);
+            by_name.get(name).or_else(of_copy).copied()
+        };
+        let groups: Vec<Option<&str>> = bodies.clone().map(|(name, _)| group(described(name)?)).collect();
         let is_grouped = groups.iter().any(Option::is_some);
         let words = bodies.zip(&groups).map(|((name, kind), group)| match group {
             Some(group) => (*group).to_owned(),
             None if is_grouped => WITHOUT_GROUP.to_owned(),
-            None => sort(kind, by_name.get(name).copied()),
+            None => sort(kind, described(name)),
         });
         let mut classes = Self::default();
         let mut known = HashMap::new();
@@ -69,10 +73,11 @@ impl BodyClasses {
     }
 }
 
-/// The first word of a body's group.
+/// The first word of a body's group; its name, if it has copies and no other.
 fn group(body: &Value) -> Option<&str> {
     let group = &body["group"];
-    group.as_str().or_else(|| group.get(0)?.as_str())
+    let of_copies = || body.get("copies").and_then(|_| body["name"].as_str());
+    group.as_str().or_else(|| group.get(0)?.as_str()).or_else(of_copies)
 }
 
 /// Kind and shape in words.
@@ -115,5 +120,16 @@ mod tests {
         assert_eq!(grouped.label(1), "steel (4)");
         let sorted = classes(8, |k| if k < 3 { json!({ "shape": { "sphere": {} } }) } else { json!({}) });
         assert_eq!(sorted.names, ["rigid, sphere", "rigid bodies"]);
+    }
+
+    #[test]
+    fn copies_are_a_class() {
+        let resolved = json!({ "body": [
+            { "name": "a", "copies": { "grid": {} } },
+            { "name": "b", "copies": { "grid": {} }, "group": "steel" },
+        ] });
+        let names: Vec<String> = (0..12).map(|k| format!("{}-{}", ["a", "b"][k % 2], k / 2)).collect();
+        let classes = BodyClasses::of(names.iter().map(|name| (name.as_str(), "rigid")), &resolved);
+        assert_eq!(classes.names, ["a", "steel"]);
     }
 }

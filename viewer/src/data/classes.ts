@@ -1,7 +1,9 @@
 // Classes of bodies, by which they are coloured: each a class of its own as long as there are few; of more, those of a
 // group are a class, or where the scene names no group, those of a sort. Plots on paper have the same classes.
 
+import { describedIn, groupWords } from "./described";
 import type { Header, Json } from "./header";
+import { table } from "./json";
 
 /** Bodies of which each has a colour of its own. */
 export const MOST_ALONE = 7;
@@ -20,18 +22,15 @@ export interface BodyClasses {
 const known = new WeakMap<object, BodyClasses>();
 
 /** The classes of the bodies of a recording. */
-export function classesOf({ bodies, resolved }: Header): BodyClasses {
+export function classesOf({ bodies, resolved }: Pick<Header, "bodies" | "resolved">): BodyClasses {
   const before = known.get(bodies);
   if (before) return before;
-  const described = new Map<string, { [key: string]: Json }>();
-  for (const body of listAt(resolved, "body")) {
-    if (isTable(body) && typeof body.name === "string") described.set(body.name, body);
-  }
-  const groups = bodies.map(({ name }) => groupOf(described.get(name)));
-  const grouped = groups.some((group) => group !== null);
+  const described = describedIn({ resolved });
+  const groups = bodies.map(({ name }): string | undefined => groupWords(described(name))[0]);
+  const grouped = groups.some((group) => group !== undefined);
   const words = bodies.map(({ name, kind }, index) => {
     if (bodies.length <= MOST_ALONE) return name;
-    return groups[index] ?? (grouped ? WITHOUT_GROUP : sortOf(kind, described.get(name)));
+    return groups[index] ?? (grouped ? WITHOUT_GROUP : sortOf(kind, described(name)));
   });
   const names = [...new Set(words)];
   const place = new Map(names.map((name, index) => [name, index]));
@@ -48,23 +47,8 @@ export function classLabel({ names, members, ofBody }: BodyClasses, index: numbe
   return ofBody.length <= MOST_ALONE ? names[index] : `${names[index]} (${members[index].length})`;
 }
 
-function groupOf(body: { [key: string]: Json } | undefined): string | null {
-  const group = body?.group;
-  const first = Array.isArray(group) ? group[0] : group;
-  return typeof first === "string" ? first : null;
-}
-
 /** Kind and shape in words. */
-function sortOf(kind: string, body: { [key: string]: Json } | undefined): string {
-  const shape = isTable(body?.shape) ? Object.keys(body.shape)[0] : undefined;
+function sortOf(kind: string, body: { [key: string]: Json }): string {
+  const shape = Object.keys(table(body.shape))[0];
   return shape ? `${kind}, ${shape.replaceAll("_", " ")}` : `${kind} bodies`;
-}
-
-function listAt(value: Json | undefined, key: string): Json[] {
-  const list = isTable(value) ? value[key] : undefined;
-  return Array.isArray(list) ? list : [];
-}
-
-function isTable(value: Json | undefined): value is { [key: string]: Json } {
-  return typeof value === "object" && value !== null && !Array.isArray(value);
 }

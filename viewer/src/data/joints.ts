@@ -1,5 +1,6 @@
 // The joints and pins of a scene, as its resolved form tells them.
 
+import { describedIn } from "./described";
 import { type End, Ends } from "./ends";
 import type { Header, Vec3 } from "./header";
 import { list, table, vector } from "./json";
@@ -33,22 +34,12 @@ export function jointsOf(header: Header): Joint[] {
   });
 }
 
-/** The points by which bodies are pinned, in all cells of a lattice, each with the centre of mass of its body. */
+/** The points by which bodies are pinned, each with the centre of mass of its body. */
 export function pinsOf(header: Header): [End, End][] {
-  const found = new Ends(header);
-  return list(table(header.resolved).body).flatMap((written) => {
-    const { name, pin } = table(written);
-    if (!Array.isArray(pin)) return [];
-    return Array.from({ length: found.cells.count }, (_, number) => found.bodyIn(name, number)).flatMap(
-      (body): [End, End][] =>
-        body === undefined
-          ? []
-          : [
-              [
-                { body, at: vector(pin) },
-                { body, at: [0, 0, 0] },
-              ],
-            ],
-    );
+  const described = describedIn(header);
+  return header.bodies.flatMap(({ name }, body): [End, End][] => {
+    const { pin } = described(name);
+    const center: End = { body, at: [0, 0, 0] };
+    return Array.isArray(pin) ? [[{ body, at: vector(pin) }, center]] : [];
   });
 }

@@ -9,7 +9,10 @@ export interface EdgeMark {
 }
 
 export class EdgeMarks {
-  readonly element = h("div", { class: "edge-marks", role: "status" });
+  private readonly marks = h("div", { "aria-hidden": "true" });
+  /** Told to a reader of the screen where another one leaves, not where a mark moves. */
+  private readonly told = h("p", { class: "told", role: "status" });
+  readonly element = h("div", { class: "edge-marks" }, this.marks, this.told);
   private shown = "";
 
   show(marks: EdgeMark[]): void {
@@ -18,7 +21,10 @@ export class EdgeMarks {
       .join("|");
     if (key === this.shown) return;
     this.shown = key;
-    this.element.replaceChildren(
+    const words = marks.map(({ name }) => name).join(", ");
+    const told = words === "" ? "" : `out of the picture: ${words}`;
+    if (told !== this.told.textContent) this.told.textContent = told;
+    this.marks.replaceChildren(
       ...marks.map(({ name, at: [x, y] }) => {
         const arrow = h("i", { style: `transform:rotate(${Math.atan2(-y, x).toFixed(3)}rad)` }, "➤");
         const place = `left:${(50 * (1 + x)).toFixed(2)}%;top:${(50 * (1 - y)).toFixed(2)}%`;

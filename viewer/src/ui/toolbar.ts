@@ -109,7 +109,7 @@ export class Toolbar {
     this.buttons.get("axes")!.disabled = bodies.every((body) => body.kind === "rigid");
     this.buttons.get("joints")!.disabled = !isJoined;
     if (this.chosen !== null && !this.members()) this.choose(null);
-    if (this.shown.follow?.some((body) => body >= bodies.length)) this.shown.follow = null;
+    if (this.shown.follow) this.shown.follow = this.members() ?? (bodies.length > 0 ? [0] : null);
     this.refresh();
   }
 

@@ -12,11 +12,9 @@ import {
   Group,
   type InstancedMesh,
   LineBasicMaterial,
-  Matrix4,
   OctahedronGeometry,
   SphereGeometry,
   TorusGeometry,
-  Vector3,
 } from "three";
 import type { End } from "../data/ends";
 import type { Frame } from "../data/frame";
@@ -61,6 +59,8 @@ interface Mark {
   parts: Part[];
   ends: [End, End];
   axis: Vec3;
+  /** A direction across the axis. */
+  beside: Vec3;
   /** Its unit of length [m]. */
   unit: number;
 }
@@ -80,9 +80,16 @@ export class JointLayer {
       SIZE *
       Math.min(...ends.flatMap(({ body }) => (body === null ? [] : [header.bodies[body].size || Infinity])));
     this.marks = [
-      ...joints.map(({ kind, ends, axis }) => ({ parts: PARTS_OF[kind], ends, axis, unit: size(ends) })),
-      ...pins.map((ends): Mark => ({ parts: ["pin"], ends, axis: [0, 0, 1], unit: size(ends) })),
-    ].map((mark) => (Number.isFinite(mark.unit) ? mark : { ...mark, unit: 0 }));
+      ...joints.map(({ kind, ends, axis }) => ({ parts: PARTS_OF[kind], ends, axis })),
+      ...pins.map((ends) => ({ parts: ["pin" as const], ends, axis: [0, 0, 1] as Vec3 })),
+    ].map((mark): Mark => {
+      const unitOfLength = size(mark.ends);
+      return {
+        ...mark,
+        beside: across(unit(mark.axis, [0, 0, 1])),
+        unit: Number.isFinite(unitOfLength) ? unitOfLength : 0,
+      };
+    });
     // Both ends of a distance have a dot.
     this.marks.push(
       ...this.marks
@@ -127,11 +134,12 @@ export class JointLayer {
     this.links.place(frame);
     const used = new Map<Part, number>();
     for (const mark of this.marks) {
+      const axes = axesOf(mark, frame);
       for (const part of mark.parts) {
         const mesh = this.meshes.get(part);
         const at = used.get(part) ?? 0;
         used.set(part, at + 1);
-        if (mesh) markMatrix(mark, part, frame).toArray(matricesOf(mesh), 16 * at);
+        if (mesh) writePart(matricesOf(mesh), 16 * at, part, mark.unit, axes);
       }
     }
     for (const mesh of this.meshes.values()) moved(mesh);
@@ -148,25 +156,34 @@ export class JointLayer {
   }
 }
 
-/** Where a part of a mark is: its axes are those of the joint, or of a body that is welded. */
-function markMatrix({ ends: [one, other], axis, unit: size }: Mark, part: Part, frame: Frame): Matrix4 {
+/** The axes of a mark, those of the joint or of a body that is welded, as columns; and where its ends are. */
+function axesOf({ ends: [one, other], axis, beside }: Mark, frame: Frame) {
   const along = pointing(one, axis, frame);
-  const turned = pointing(one, across(unit(axis, [0, 0, 1])), frame);
+  const turned = pointing(one, beside, frame);
   // What a body that deforms shears is at right angles no more.
   const away = dot(turned, along);
   const first = unit(turned.map((value, k) => value - away * along[k]) as Vec3, across(along));
-  const at = placed(part === "pin" ? one : other, frame);
-  let long = size;
-  if (part === "rail") {
-    const start = placed(one, frame);
-    const way = dot(at.map((value, k) => value - start[k]) as Vec3, along);
-    at.forEach((value, k) => {
-      at[k] = value - 0.5 * way * along[k];
-    });
-    long = 0.5 * Math.abs(way) + RAIL * size;
+  return { first, second: cross(along, first), along, from: placed(one, frame), to: placed(other, frame) };
+}
+
+/** Writes where a part of a mark is, as a matrix by columns. */
+function writePart(
+  into: Float32Array,
+  start: number,
+  part: Part,
+  size: number,
+  axes: ReturnType<typeof axesOf>,
+) {
+  const { first, second, along, from, to } = axes;
+  // A rail reaches from point to point, and beyond both.
+  const way = part === "rail" ? dot(to.map((value, k) => value - from[k]) as Vec3, along) : 0;
+  const long = part === "rail" ? 0.5 * Math.abs(way) + RAIL * size : size;
+  const at = part === "pin" ? from : to;
+  for (let k = 0; k < 3; k++) {
+    into[start + k] = size * first[k];
+    into[start + 4 + k] = size * second[k];
+    into[start + 8 + k] = long * along[k];
+    into[start + 12 + k] = at[k] - 0.5 * way * along[k];
   }
-  const [x, y, z] = [first, cross(along, first), along].map((direction) => new Vector3(...direction));
-  return new Matrix4()
-    .makeBasis(x.multiplyScalar(size), y.multiplyScalar(size), z.multiplyScalar(long))
-    .setPosition(...at);
+  into[start + 15] = 1;
 }

@@ -14,7 +14,7 @@ import { applied, carriage, placeOf } from "../math/carriage";
 import { unit } from "../math/mat3";
 
 /** Where an end is: p = p₀ + P X, of an image R farther, or where a support has carried its point of space. */
-export function placed({ body, at, shift = [0, 0, 0], motion = null }: End, frame: Frame): Vec3 {
+export function placed({ body, at, shift = [0, 0, 0], motion = null }: End, frame: Frame): Readonly<Vec3> {
   if (body === null) return motion ? placeOf(carriage(motion, frame.time), at) : at;
   const { position: p, gradient: P } = frame;
   return [0, 1, 2].map((axis) => {
@@ -36,10 +36,10 @@ export class LinkLines {
   readonly lines: LineSegments<BufferGeometry, LineBasicMaterial>;
   private readonly position: BufferAttribute;
 
-  constructor(
-    private readonly links: [End, End][],
-    material: LineBasicMaterial,
-  ) {
+  private readonly ends: End[];
+
+  constructor(links: [End, End][], material: LineBasicMaterial) {
+    this.ends = links.flat();
     this.position = new BufferAttribute(new Float32Array(6 * links.length), 3).setUsage(DynamicDrawUsage);
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", this.position);
@@ -49,12 +49,12 @@ export class LinkLines {
   }
 
   get count(): number {
-    return this.links.length;
+    return this.ends.length / 2;
   }
 
   place(frame: Frame): void {
     if (!this.lines.visible) return;
-    this.links.flat().forEach((end, index) => {
+    this.ends.forEach((end, index) => {
       this.position.setXYZ(index, ...placed(end, frame));
     });
     this.position.needsUpdate = true;

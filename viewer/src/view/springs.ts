@@ -60,6 +60,7 @@ export class SpringLayer {
   }
 
   place(frame: Frame): void {
+    if (!this.group.visible) return;
     this.bonds.place(frame);
     if (!this.lines.visible) return;
     this.springs.forEach(({ ends }, spring) => {
@@ -79,7 +80,7 @@ export class SpringLayer {
 }
 
 /** The corners of a zigzag of a half width, both ends among them. */
-export function zigzag(from: Vec3, to: Vec3, width: number): Vec3[] {
+export function zigzag(from: Readonly<Vec3>, to: Readonly<Vec3>, width: number): Readonly<Vec3>[] {
   const along = difference(to, from);
   const across = perpendicular(along);
   const point = (part: number, side: number) =>
@@ -107,6 +108,6 @@ function perpendicular(along: Vec3): Vec3 {
   return across.map((value) => value / size) as Vec3;
 }
 
-function difference(a: Vec3, b: Vec3): Vec3 {
+function difference(a: Readonly<Vec3>, b: Readonly<Vec3>): Vec3 {
   return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 }

@@ -1,9 +1,13 @@
 // Joints and pins: found in the resolved scene, at bodies, supports and space.
 
+import { InstancedMesh } from "three";
 import { describe, expect, it } from "vitest";
 import { Frame } from "../../src/data/frame";
 import { jointsOf, pinsOf } from "../../src/data/joints";
+import type { Recording } from "../../src/data/recording";
 import { bondsOf, springsOf } from "../../src/data/springs";
+import { matricesOf } from "../../src/view/instances";
+import { JointLayer } from "../../src/view/joints";
 import { placed, pointing } from "../../src/view/places";
 import { bodyNamed, headerOf } from "./made";
 
@@ -41,6 +45,31 @@ const header = headerOf({
     },
   ],
   resolved,
+});
+
+describe("marks", () => {
+  it("are_where_they_are_however_often_they_are_placed", () => {
+    // The rail of a slider lies between its points, of which one is of space.
+    const rail = headerOf({
+      bodies: [bodyNamed("a")],
+      resolved: {
+        joint: [
+          { name: "way", kind: "slider", between: ["a", "space"], points: [[], [0, 0, 3]], axis: [0, 0, 1] },
+        ],
+      },
+    });
+    const frame = new Frame();
+    frame.position = Float32Array.of(0, 0, 0);
+    frame.gradient = Float32Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1);
+    const layer = new JointLayer({ header: rail } as Recording);
+    const seen = () =>
+      layer.group.children.map((child) => child instanceof InstancedMesh && [...matricesOf(child)]);
+    layer.place(frame);
+    const once = seen();
+    layer.place(frame);
+    expect(seen()).toEqual(once);
+    expect(jointsOf(rail)[0].ends[1].at).toEqual([0, 0, 3]);
+  });
 });
 
 describe("joints", () => {

@@ -28,6 +28,8 @@ describe("a link", () => {
     expect(hashOf({}, "")).toBe("");
     expect(hashOf({ time: 0.25 }, "")).toBe("#t=0.25");
     expect(hashOf({ time: 0.5 }, "#quality=full&t=0.25&color=stress")).toBe("#quality=full&t=0.5");
+    // However others have written what is ours.
+    expect(hashOf({ time: 5 }, "#%74=4&t=3")).toBe("#t=5");
   });
 
   it("does_without_what_makes_no_sense", () => {
@@ -41,9 +43,13 @@ describe("a link", () => {
       "#camera=1,2,3,1,2,3",
       "#camera=1,2,3,4,5,",
       "#camera=a,b,c,d,e,f",
+      "#camera= ,1,2,3,4,5",
+      "#camera=1e308,-1e308,0,-1e308,1e308,0",
+      "#t=0x10",
     ]) {
       expect(lookIn(hash), hash).toEqual({});
     }
+    expect(() => lookIn("#body=%E0%A4%A&%zz")).not.toThrow();
     expect(lookIn("#show=forces,fireworks")).toEqual({ show: ["forces"] });
   });
 });
@@ -55,9 +61,13 @@ describe("groups of bodies", () => {
         { name: "a", group: ["all", "one"] },
         { name: "b", group: "all" },
         { name: "c", shape: {} },
+        { name: "d", copies: { grid: {} } },
       ],
     };
-    const bodies = ["a", "b-0", "b-1", "c"].map((name) => bodyNamed(name));
-    expect([...groupsOf(headerOf({ bodies, resolved }))]).toEqual([["all", [0, 1, 2]]]);
+    const bodies = ["a", "b-0", "b-1", "c", "d-0", "d-1"].map((name) => bodyNamed(name));
+    expect([...groupsOf(headerOf({ bodies, resolved }))]).toEqual([
+      ["all", [0, 1, 2]],
+      ["d", [4, 5]],
+    ]);
   });
 });
