@@ -84,7 +84,7 @@ fn what_has_no_matrix_is_refused_with_the_fix() {
         let arguments: Vec<&str> = ["resistance"].iter().chain(arguments).copied().collect();
         sandbox.refused(2, &arguments).stderr
     };
-    assert!(refused(&["grains.toml:bull"]).contains("write one of ball, brick"));
+    assert!(refused(&["grains.toml:bull"]).contains("did you mean `ball`?"));
     assert!(refused(&["grains.toml", "--wall", "ceiling"]).contains("write one of floor"));
     assert!(refused(&["grains.toml:brick", "--frequency", "1"]).contains("is no sphere"));
     assert!(refused(&["grains.toml:ball", "--frequency", "1", "--set", "fluid.density=0"]).contains("`density`"));

@@ -34,7 +34,8 @@ impl BodyClasses {
         let by_name: HashMap<&str, &Value> =
             described.iter().filter_map(|body| Some((body["name"].as_str()?, body))).collect();
         let described = |name: &str| {
-            let of_copy = || by_name.get(name.trim_end_matches(|digit: char| digit.is_ascii_digit()).strip_suffix('-')?);
+            let of_copy =
+                || by_name.get(name.trim_end_matches(|digit: char| digit.is_ascii_digit()).strip_suffix('-')?);
             by_name.get(name).or_else(of_copy).copied()
         };
         let groups: Vec<Option<&str>> = bodies.clone().map(|(name, _)| group(described(name)?)).collect();

@@ -11,7 +11,7 @@ use crate::monitor::PythonMonitor;
 use crate::scene::Scene;
 use gyration::load::{Applied, Loads};
 use gyration::tensor::{Mat3, Vec3};
-use gyration_scene::Scene as Built;
+use gyration_scene::{Scene as Built, suggestion};
 use gyration_sim::events::EVENT_KINDS;
 use gyration_sim::{Reason, SteppedRun};
 use numpy::PyArrayDyn;
@@ -31,28 +31,20 @@ pub struct Simulation {
     arrays: Arrays,
 }
 
-/// Names that a message tells.
-const MOST_NAMES: usize = 20;
-
 impl Simulation {
     /// The index of a body given by name or number.
     fn index(&self, body: &Bound<'_, PyAny>) -> PyResult<usize> {
         let model = self.stepper.model();
-        let names = || {
-            let all = model.bodies.len();
-            let told: Vec<&str> = model.names().take(MOST_NAMES).collect();
-            let more = if all > told.len() { format!(", … ({all} in all)") } else { String::new() };
-            told.join(", ") + &more
-        };
+        let fix = |name: &str| suggestion(name, model.names(), "bodies");
         if let Ok(name) = body.extract::<String>() {
-            return model.find_body(&name).ok_or_else(|| {
-                errors::arguments(format!("the scene has no body {name:?}\n  fix: write one of {}", names()))
-            });
+            return model
+                .find_body(&name)
+                .ok_or_else(|| errors::arguments(format!("the scene has no body {name:?}\n  fix: {}", fix(&name))));
         }
         let index = body.extract().ok().filter(|index| *index < model.bodies.len());
         index.ok_or_else(|| {
             let problem = format!("the scene has no body {}", shown(body));
-            errors::arguments(format!("{problem}\n  fix: write one of {}, or its number from 0", names()))
+            errors::arguments(format!("{problem}\n  fix: write a name or a number from 0; {}", fix("")))
         })
     }
 

@@ -31,6 +31,7 @@ mod suggest;
 mod table;
 mod template;
 mod tree;
+mod uniform;
 pub mod units;
 mod unknown;
 
@@ -41,5 +42,7 @@ pub use gallery::{NotInGallery, gallery, gallery_scene};
 pub use overriding::{Override, OverrideValue};
 pub use scene::Scene;
 pub use schema::{schema, schema_of};
+pub use suggest::fix as suggestion;
 pub use template::{Template, unit_of};
+pub use uniform::Uniform;
 pub use unknown::{NoForm, NoWave, UnknownForm};

@@ -41,7 +41,7 @@ pub(crate) fn grid(grid: &CopyGrid) -> Vec<CopyPlace> {
 /// The columns of a table that belong together, of which the first must be there.
 const COLUMNS: [&[&str]; 4] = [&["x", "y", "z"], &["qw", "qx", "qy", "qz"], &["vx", "vy", "vz"], &["wx", "wy", "wz"]];
 /// The same, as a message has them.
-const IN_WORDS: &str = "x,y,z`, `x,y,z,qw,qx,qy,qz`, and so on with `vx,vy,vz` and `wx,wy,wz";
+const IN_WORDS: &str = "`x,y,z`, `x,y,z,qw,qx,qy,qz`, and so on with `vx,vy,vz` and `wx,wy,wz`";
 
 /// Reads a table of places: a line of names, and a row for each copy in SI units.
 ///

@@ -25,7 +25,7 @@ pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
 }
 
 /// The fix for a word that is not among the known ones: the nearest, or all of them if they are few.
-pub(crate) fn fix<'a>(word: &str, known: impl IntoIterator<Item = &'a str> + Clone, what: &str) -> String {
+pub fn fix<'a>(word: &str, known: impl IntoIterator<Item = &'a str> + Clone, what: &str) -> String {
     if let Some(candidate) = nearest(word, known.clone()) {
         return format!("did you mean `{candidate}`?");
     }

@@ -42,7 +42,7 @@ impl TableFault {
     pub(crate) fn help(&self) -> String {
         let help = match self {
             Self::Unreadable(_) => "the path is relative to the folder of the scene",
-            Self::Malformed { columns, .. } => return format!("write rows of `{columns}`"),
+            Self::Malformed { columns, .. } => return format!("write rows of {columns}"),
             Self::Rows { source: TableError::NotSorted { .. }, .. } => "sort the rows by time, each time once",
             Self::Rows { source: TableError::NotFinite { .. }, .. } => "write finite numbers",
             Self::Rows { source: TableError::Empty, .. } => "write at least one row",
@@ -106,7 +106,7 @@ fn read_table(
     let rows = rows(content, entries.len()).map_err(|(start, reason)| {
         let line = line_of_row(content, start);
         let names: Vec<String> = entries.iter().map(|entry| format!(", {symbol}_{entry}")).collect();
-        TableFault::Malformed { columns: format!("t{}", names.concat()), path: path.to_owned(), line, reason }
+        TableFault::Malformed { columns: format!("`t{}`", names.concat()), path: path.to_owned(), line, reason }
     })?;
     TensorTable::new(rows.iter().map(|row| (row.time, row.value)).collect(), interpolation).map_err(|source| {
         let row = match source {

@@ -93,7 +93,7 @@ impl Template {
         }
         structure(&document.root, &RULES, &mut diagnostics);
         let mut partial = PartialScene::new(&document, &self.base, &mut diagnostics);
-        let mut reporter = Reporter { document: &document, diagnostics: &mut diagnostics };
+        let mut reporter = Reporter::new(&document, &mut diagnostics);
         values(&partial, &mut reporter);
         let constants = partial.constants.clone();
         let context = SceneContext::new(&partial, &document, &self.base, constants.as_ref());

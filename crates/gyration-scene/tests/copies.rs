@@ -115,6 +115,15 @@ fn gradients_are_turned_and_pins_are_at_their_places() {
     let about_z = Mat3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
     assert!((turned.placement.gradient - about_z * straight.placement.gradient).norm() < 1e-15);
     assert!((turned.velocity.gradient_rate - about_z * straight.velocity.gradient_rate).norm() < 1e-15);
+    // A spin is one of space, of the copy that is turned as well, and stays so in the resolved form.
+    let spinning = body.replace("gradient_rate = [[1, 0, 0], [0, 0, 0], [0, 0, 0]]", "angular_velocity = [5, 0, 0]");
+    let scene = open(&[TIME, &grain(&spinning)].concat(), folder.path(), &[]);
+    let again = Scene::parse("again.json", &scene.resolved().to_string(), folder.path(), &[]).unwrap();
+    assert_eq!((again.resolved(), &again.built().state), (scene.resolved(), &scene.built().state));
+    for motion in motions(&scene) {
+        let spin = cross_matrix(&Vec3::new(5.0, 0.0, 0.0)) * motion.placement.gradient;
+        assert!((motion.velocity.gradient_rate - spin).norm() < 1e-14);
+    }
     let body = "pin = [0.1, 0, 0]\nangular_velocity = [0, 0, 2]\ncopies = { places = \"p.csv\" }";
     let scene = open(&[TIME, &grain(body)].concat(), folder.path(), &[]);
     let again = Scene::parse("again.json", &scene.resolved().to_string(), folder.path(), &[]).unwrap();
@@ -244,6 +253,12 @@ fn what_is_wrong_with_copies_is_told_where_it_stands() {
             "of 90 copies of \"grain\" ",
             "write fewer",
         ),
+        (
+            "{ random = { count = 1, box = §[[-1e308, 0, 0], [1e308, 1, 1]], seed = 1 } }",
+            "random.box",
+            "beyond all numbers",
+            "smaller box",
+        ),
     ];
     for (copies, key, message, help) in cases {
         assert_error(&case(copies), &format!("body.grain.copies.{key}"), message, help);
@@ -266,7 +281,12 @@ fn copies_are_refused_where_they_make_no_sense() {
     let text = [TIME, &grain(&grid), of_all].concat();
     assert_error(&text, "spring.0.between.1", "\"grain-0\" to \"grain-1\"", "name one of them, \"grain-0\"");
     let beyond = "[[spring]]\nbetween = [\"grain-0\", §\"grain-2\"]\nstiffness = 1\n";
-    assert_error(&[TIME, &grain(&grid), beyond].concat(), "spring.0.between.1", "there is no body \"grain-2\"", "");
+    assert_error(
+        &[TIME, &grain(&grid), beyond].concat(),
+        "spring.0.between.1",
+        "there is no body \"grain-2\"",
+        "grain",
+    );
     let joint = "[[joint]]\nname = \"j\"\nbetween = [§\"grain\", \"space\"]\nkind = \"ball\"\n";
     assert_error(&[TIME, &grain(&grid), joint].concat(), "joint.j.between.0", "is the group of the copies", "grain-0");
     let many = "copies = { grid = { count = [1000, 1000, 1], spacing = [1, 1, 1] } }";
@@ -275,8 +295,8 @@ fn copies_are_refused_where_they_make_no_sense() {
     assert_error(&text, "body.more.copies", "more than 1000000 bodies", "fewer");
     let namesake = "[[body]]\nname = §\"grain-1\"\nshape = { sphere = { radius = 0.01 } }\nmass = 1\n";
     assert_error(&[TIME, &grain(&grid), namesake].concat(), "body.grain-1.name", "a copy of another body", "own");
-    // The table stands at the first's place, and the second is told by its name.
-    let low = "position = [0, 0, 0.1]\ncopies = { grid = { count = [1, 1, 2], spacing = [0, 0, -0.1] } }";
+    // The table stands at the first's place, and of those below it the first is told.
+    let low = "position = [0, 0, 0.1]\ncopies = { grid = { count = [1, 1, 30], spacing = [0, 0, -0.1] } }";
     let text = [TIME, TABLE, &grain(low), &contact("support = \"table\"")].concat();
     let told = errors("scene.toml", &text, &[]);
     assert!(told.count() == 1 && told.as_slice()[0].message.starts_with("\"grain-1\" reaches the support"), "{told}");
@@ -312,6 +332,23 @@ fn a_table_of_places_is_refused_with_its_line() {
     let pinned = [TIME, &grain("pin = [0.1, 0, 0]\ncopies = { places = \"p.csv\" }")].concat();
     let found = Scene::parse("scene.toml", &pinned, folder.path(), &[]).unwrap_err();
     assert!(found.count() == 1 && found.as_slice()[0].message.contains("the pin says how"), "{found}");
+    let spins = "x,y,z,wx,wy,wz\n0,0,0,0,0,0\n1,0,0,0,1,0\n";
+    std::fs::write(folder.path().join("p.csv"), spins).unwrap();
+    let point = "[[body]]\nname = \"grain\"\nshape = { points = [{ mass = 1, at = [0, 0, 0] }] }\n\
+                 copies = { places = \"p.csv\" }\n";
+    let found = Scene::parse("scene.toml", &[TIME, point].concat(), folder.path(), &[]).unwrap_err();
+    assert!(found.count() == 1 && found.as_slice()[0].message.contains("the spin of a point"), "{found}");
+    let drifting = [
+        "fluid = { viscosity = 1 }\n",
+        TIME,
+        &grain("inclusion = { inertia = false }\ncopies = { places = \"p.csv\" }"),
+    ];
+    let found = Scene::parse("scene.toml", &drifting.concat(), folder.path(), &[]).unwrap_err();
+    assert!(found.count() == 1 && found.as_slice()[0].message.contains("without inertia"), "{found}");
+    // What is wrong with one copy tells which.
+    let kept = [TIME, &grain("keep = { plane = [1, 0, 0] }\ncopies = { places = \"p.csv\" }")].concat();
+    let found = Scene::parse("scene.toml", &kept, folder.path(), &[]).unwrap_err();
+    assert!(found.count() == 1 && found.as_slice()[0].message.starts_with("the copy \"grain-1\": "), "{found}");
     // Names are not guessed at where copies are not known.
     let spring = "[[spring]]\nbetween = [\"grain-0\", \"grain-5\"]\nstiffness = 1\n";
     let found = errors("scene.toml", &[TIME, &grain("copies = { places = \"no.csv\" }"), spring].concat(), &[]);

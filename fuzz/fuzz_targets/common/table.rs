@@ -1,11 +1,11 @@
-//! What the reader of tables in time owes whatever bytes it gets: a scene that starts with finite numbers, or errors
+//! What the readers of tables in time and of tables of places owe whatever bytes it gets: a scene that starts with finite numbers, or errors
 //! with a place.
 
 use gyration_scene::Scene;
 use std::path::Path;
 
-/// A couple, linear; a drive, cubic; the velocity of a fluid, three columns.
-const SCENES: [&str; 3] = [
+/// A couple, linear; a drive, cubic; the velocity of a fluid, three columns; the places of copies.
+const SCENES: [&str; 4] = [
     r#"
     [time]
     end = 1
@@ -41,6 +41,16 @@ const SCENES: [&str; 3] = [
     shape = { sphere = { radius = 0.1 } }
     density = 1000
     inclusion = {}
+    "#,
+    r#"
+    [time]
+    end = 1
+    sample = 0.1
+    [[body]]
+    name = "b"
+    shape = { box = { size = [0.1, 0.2, 0.3] } }
+    density = 1000
+    copies = { places = "table.csv" }
     "#,
 ];
 

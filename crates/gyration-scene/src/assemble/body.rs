@@ -101,6 +101,35 @@ impl<'a> PreparedBody<'a> {
         self.starting(self.placed.value.name.clone(), index, start, solids, reporter)
     }
 
+    /// Whether places give copies no velocity that follows from something else; notes it otherwise.
+    pub(super) fn may_move(&self, places: &[CopyPlace], reporter: &mut Reporter<'_>) -> bool {
+        let is_moved = |own: fn(&CopyPlace) -> Vec3| places.iter().any(|place| own(place) != Vec3::zeros());
+        let is_free = self.placed.value.inclusion.as_ref().is_none_or(|inclusion| inclusion.inertia);
+        let is_point = self.kind == BodyKind::Rigid(RigidInertia::POINT);
+        let faults = [
+            (
+                self.arm.is_some() && is_moved(|place| place.velocity),
+                "the pin says how the centre of mass moves, and so do the columns vx, vy, vz",
+                "leave out the columns: it follows from the spin",
+            ),
+            (
+                !is_free && (is_moved(|place| place.velocity) || is_moved(|place| place.angular_velocity)),
+                "a body without inertia moves as the balance of forces says, from the start on",
+                "leave out the columns of velocities and spins, or write `inertia = true`",
+            ),
+            (
+                is_point && is_moved(|place| place.angular_velocity),
+                "all its mass is in one point, and the spin of a point has no meaning",
+                "leave out the columns wx, wy, wz, or give the body some width",
+            ),
+        ];
+        let found: Vec<_> = faults.iter().filter(|(is_at_fault, ..)| *is_at_fault).collect();
+        for (_, message, help) in &found {
+            reporter.note(&self.placed.key.key("copies").key("places"), *message, *help);
+        }
+        found.is_empty()
+    }
+
     /// Its copy of this number, at a place.
     pub(super) fn copy(
         &self,

@@ -11,13 +11,14 @@ use super::solids::Solids;
 use super::start::{placement, stretch};
 use super::support::AssembledSupports;
 use crate::check::{Copies, PartialScene, Reporter};
-use crate::file::{Copies as Written, RandomCopies};
+use crate::file::RandomCopies;
 use crate::places::CopyPlace;
 use crate::quantity::si;
 use crate::units::shown;
 use gyration::load::Party;
 use gyration::state::Start;
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// The bodies of the model; none in the place of one with an error.
 #[derive(Debug)]
@@ -50,20 +51,21 @@ impl AssembledBodies {
                     this.starts[body.number] = prepared.start(reporter);
                     this.copy(&prepared, first, places, solids, reporter);
                 }
-                Copies::Random(_) => {
+                Copies::Random(written) => {
                     this.starts[body.number] = prepared.start(reporter);
-                    waiting.push(prepared);
+                    waiting.push((prepared, written));
                 }
                 Copies::Unknown => _ = prepared.start(reporter),
             }
         }
-        for prepared in &waiting {
-            this.scatter(prepared, partial, supports, solids, reporter);
+        let names = Names::of(partial);
+        for (prepared, written) in &waiting {
+            this.scatter((prepared, written), (partial, &names, supports), solids, reporter);
         }
         this
     }
 
-    /// The copies of a body, from an index on; what is wrong with one of them is noted of the first.
+    /// The copies of a body, from an index on; what is wrong with them is noted of the first that it is wrong with.
     fn copy(
         &mut self,
         prepared: &PreparedBody<'_>,
@@ -72,8 +74,12 @@ impl AssembledBodies {
         solids: &mut Solids,
         reporter: &mut Reporter<'_>,
     ) {
+        if !prepared.may_move(places, reporter) {
+            return;
+        }
+        let name = &prepared.placed.value.name;
         for (number, place) in places.iter().enumerate() {
-            let Some(copy) = prepared.copy(number, place, solids, reporter) else { return };
+            let Some(copy) = prepared.copy(number, place, solids, &mut reporter.of_copy(name, number)) else { return };
             self.all[first + number] = Some(copy);
         }
     }
@@ -81,21 +87,16 @@ impl AssembledBodies {
     /// The copies of a body at random places; notes that they do not fit.
     fn scatter(
         &mut self,
-        prepared: &PreparedBody<'_>,
-        partial: &PartialScene,
-        supports: &AssembledSupports,
+        (prepared, written): (&PreparedBody<'_>, &RandomCopies),
+        (partial, names, supports): (&PartialScene, &Names<'_>, &AssembledSupports),
         solids: &mut Solids,
         reporter: &mut Reporter<'_>,
     ) {
         let placed = prepared.placed;
-        let (Some(Written::Random(written)), Some(start)) =
-            (placed.value.copies.as_deref(), self.starts[placed.number].as_ref())
-        else {
-            return;
-        };
+        let Some(start) = self.starts[placed.number].as_ref() else { return };
         let radius = stretch(&placement(start).gradient) * prepared.solid.radius().unwrap_or(0.0);
         let numbers = partial.numbers.range(placed.number);
-        let around = self.around(partial, supports, &numbers);
+        let around = self.around((partial, names, supports), &numbers);
         let drawn = RandomPlaces { written, radius, position: si(&placed.value.position), around: &around }.draw();
         match drawn {
             Ok(places) => self.copy(prepared, numbers.start, &places, solids, reporter),
@@ -109,11 +110,9 @@ impl AssembledBodies {
     /// What bodies of these indices have contacts with, but for one another, as far as it has a place.
     fn around<'a>(
         &'a self,
-        partial: &PartialScene,
-        supports: &'a AssembledSupports,
-        own: &std::ops::Range<usize>,
+        (partial, names, supports): (&PartialScene, &Names<'_>, &'a AssembledSupports),
+        own: &Range<usize>,
     ) -> Around<'a> {
-        let names = Names::of(partial);
         let (mut planes, mut solids, mut bodies) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
         let is_own = |set: &[usize]| set.iter().any(|body| own.contains(body));
         for contact in &partial.contacts {
@@ -130,17 +129,17 @@ impl AssembledBodies {
                 _ => {}
             }
         }
-        let mut around = Around::default();
-        planes.iter().flat_map(|plane| &supports.planes[*plane]).for_each(|plane| around.plane(plane));
-        for support in solids.iter().flat_map(|solid| &supports.solids[*solid]) {
-            around.solid(&support.solid, support.at(0.0).placement);
-        }
-        for body in bodies.iter().flat_map(|body| &self.all[*body]) {
-            around.solid(&body.body.solid, placement(&body.start));
-        }
-        around
+        let planes = planes.iter().flat_map(|plane| &supports.planes[*plane]);
+        let solids = solids.iter().flat_map(|solid| &supports.solids[*solid]);
+        let solids = solids.map(|support| (&*support.solid, support.at(0.0).placement));
+        let bodies = bodies.iter().flat_map(|body| &self.all[*body]);
+        let bodies = bodies.map(|body| (&*body.body.solid, placement(&body.start)));
+        Around::new(planes.collect(), solids.chain(bodies))
     }
 }
+
+/// Where spheres fill so much of a volume, in per cent, these alone may leave no place for another.
+const DENSE: f64 = 20.0;
 
 /// What is wrong where only so many copies have found a place, and the fix.
 fn crowded(name: &str, written: &RandomCopies, radius: f64, found: usize) -> (String, String) {
@@ -154,7 +153,10 @@ fn crowded(name: &str, written: &RandomCopies, radius: f64, found: usize) -> (St
          {part:.1} % of the volume with half the gap around them",
         shown(radius)
     );
-    let help = "write fewer, a larger box or a smaller gap, or clear the box of what they have contacts with: at random \
-                spheres fill some 30 % of a volume; a `grid` holds more";
+    let help = if part > DENSE {
+        "write fewer, a larger box or a smaller gap: at random spheres fill some 30 % of a volume; a `grid` holds more"
+    } else {
+        "clear the box, which is told from `position`, of supports and bodies that they have contacts with, or write fewer"
+    };
     (message, help.to_owned())
 }

@@ -225,11 +225,9 @@ pub(crate) fn assemble(
     let mut met: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); assembled.len()];
     contacts.iter().for_each(|contact| _ = met[contact.body].insert(contact.support));
     for body in &mut partial.bodies {
-        for index in partial.numbers.range(body.number) {
-            if let Some(assembled_body) = &assembled[index] {
-                overlap::check(body, assembled_body, &met[index], &supports.planes, reporter);
-            }
-        }
+        // Of copies the first is told that reaches a support.
+        let mut own = partial.numbers.range(body.number).filter_map(|index| Some((index, assembled[index].as_ref()?)));
+        own.all(|(index, own)| overlap::check(body, own, &met[index], &supports.planes, reporter));
         if let Some(start) = &starts[body.number] {
             resolve::resolve(&mut body.value, start);
         }

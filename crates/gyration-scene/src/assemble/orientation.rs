@@ -42,7 +42,8 @@ mod tests {
 
     fn rotated(written: &Orientation, vector: Vec3) -> Vec3 {
         let document = Document::new("test", "");
-        let mut reporter = Reporter { document: &document, diagnostics: &mut Diagnostics::default() };
+        let mut found = Diagnostics::default();
+        let mut reporter = Reporter::new(&document, &mut found);
         orientation(written, &Key::root(), &mut reporter).unwrap().rotation() * vector
     }
 

@@ -8,15 +8,17 @@ use gyration::support::Support;
 use gyration::surface::GapField;
 use std::collections::BTreeSet;
 
-/// Notes each support, of those with which it has contacts, that a body reaches at t = 0, with the lift that it needs.
+/// Whether a body is clear at t = 0 of the supports with which it has contacts; notes each that it reaches, with the lift
+/// that it needs.
 pub(super) fn check(
     placed: &Placed<Body>,
     assembled: &AssembledBody,
     met: &BTreeSet<usize>,
     supports: &[Option<Support>],
     reporter: &mut Reporter<'_>,
-) {
-    let Some(surface) = &assembled.body.solid.surface else { return };
+) -> bool {
+    let Some(surface) = &assembled.body.solid.surface else { return true };
+    let mut is_clear = true;
     let start = placement(&assembled.start);
     for support in met.iter().filter_map(|index| supports.get(*index)?.as_ref()) {
         let field = GapField::new(support.gap(&start.position, 0.0), start.gradient.tr_mul(&support.normal));
@@ -34,7 +36,9 @@ pub(super) fn check(
         };
         let help = format!("move it {lift}along the normal [{x}, {y}, {z}]: forces of short range keep bodies apart");
         reporter.note(&placed.key.key("position"), format!("\"{body}\" {message}"), help);
+        is_clear = false;
     }
+    is_clear
 }
 
 /// A depth that cannot be told from none, in sizes of the body.

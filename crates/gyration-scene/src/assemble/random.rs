@@ -2,33 +2,27 @@
 //!
 //! Copies come one by one. The centre of each is drawn uniformly in the box until its bounding sphere, wider by the
 //! gap, is clear of the spheres of those before it, and of the surfaces of what they have contacts with (random
-//! sequential addition). A sphere holds its body however this is turned, so that rotations are drawn apart:
-//!
-//!   q = (√(1−a) sin 2πb, √(1−a) cos 2πb, √a sin 2πc, √a cos 2πc)
-//!
-//! is uniform for a, b, c uniform in [0, 1) (Shoemake 1992). Numbers come from ChaCha with 8 rounds, by the seed alone.
+//! sequential addition). A sphere holds its body however this is turned, so that rotations are drawn apart.
 
 use super::start::stretch;
 use crate::file::RandomCopies;
 use crate::places::CopyPlace;
 use crate::quantity::si;
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
+use crate::uniform::Uniform;
 use gyration::body::Solid;
-use gyration::kinematics::{Placement, Quaternion};
+use gyration::kinematics::Placement;
 use gyration::neighbours::{Bounds, BoxTree};
 use gyration::pair::Overlap;
 use gyration::shape::{Shape, Sphere};
 use gyration::support::Support;
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
-use std::f64::consts::TAU;
 
 /// How often a place is drawn for a copy.
 const MOST_DRAWS: usize = 10_000;
 
 /// What copies must keep clear of.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Around<'a> {
     planes: Vec<&'a Support>,
     solids: Vec<(&'a Solid, Placement)>,
@@ -37,17 +31,14 @@ pub(super) struct Around<'a> {
 }
 
 impl<'a> Around<'a> {
-    /// Adds a plane, of which they must be above.
-    pub(super) fn plane(&mut self, plane: &'a Support) {
-        self.planes.push(plane);
-    }
-
-    /// Adds a solid that has a surface.
-    pub(super) fn solid(&mut self, solid: &'a Solid, placement: Placement) {
-        let Some(radius) = solid.radius() else { return };
-        let bounds = Bounds::about(&placement.position, stretch(&placement.gradient) * radius);
-        self.boxes.insert(bounds, self.solids.len());
-        self.solids.push((solid, placement));
+    /// Planes, of which they must be above, and solids, as far as they have a surface.
+    pub(super) fn new(planes: Vec<&'a Support>, solids: impl Iterator<Item = (&'a Solid, Placement)>) -> Self {
+        let solids: Vec<_> = solids.filter(|(solid, _)| solid.surface.is_some()).collect();
+        let bounds = |(solid, placement): &(&Solid, Placement)| {
+            Bounds::about(&placement.position, stretch(&placement.gradient) * solid.radius().unwrap_or_default())
+        };
+        let boxes = BoxTree::new(solids.iter().map(bounds).zip(0..));
+        Self { planes, solids, boxes }
     }
 
     /// Whether a ball of this radius \[m\] at a place is clear of all.
@@ -58,8 +49,8 @@ impl<'a> Around<'a> {
         let here = Placement { position: *center, gradient: Mat3::identity() };
         self.boxes.touching(&Bounds::about(center, radius)).all(|index| {
             let (solid, placement) = &self.solids[index];
-            let parts = (0..solid.count_parts()).map(|part| solid.part(part));
-            parts.into_iter().all(|part| Overlap::check([ball, part], [&here, placement]).is_ok())
+            let is_clear = |part: usize| Overlap::check([ball, solid.part(part)], [&here, placement]).is_ok();
+            (0..solid.count_parts()).all(is_clear)
         })
     }
 }
@@ -82,7 +73,7 @@ impl RandomPlaces<'_> {
     pub(super) fn draw(&self) -> Result<Vec<CopyPlace>, usize> {
         let Self { written, radius, position, around } = self;
         let (count, gap) = (written.count.0 as usize, written.gap.value());
-        let mut numbers = Uniform(ChaCha8Rng::seed_from_u64(written.seed.0 as u64));
+        let mut numbers = Uniform::of_seed(written.seed.0 as u64);
         let [low, high]: [Vec3; 2] = written.bounds.each_ref().map(si);
         let (apart, clear) = (2.0 * radius + gap, radius + gap);
         // What has no surface has no contacts either.
@@ -106,50 +97,5 @@ impl RandomPlaces<'_> {
             places.push(CopyPlace { displacement, turn, ..CopyPlace::default() });
         }
         Ok(places)
-    }
-}
-
-/// Numbers uniform in [0, 1).
-struct Uniform(ChaCha8Rng);
-
-impl Uniform {
-    fn number(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 * 0.5_f64.powi(53)
-    }
-
-    fn vector(&mut self) -> Vec3 {
-        Vec3::from([0; 3].map(|_| self.number()))
-    }
-
-    fn rotation(&mut self) -> Quaternion {
-        let [a, b, c] = self.vector().into();
-        let ((sin_b, cos_b), (sin_c, cos_c)) = (libm::sincos(TAU * b), libm::sincos(TAU * c));
-        let (first, second) = ((1.0 - a).sqrt(), a.sqrt());
-        Quaternion([first * sin_b, first * cos_b, second * sin_c, second * cos_c])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_rotation_is_as_likely() {
-        let mut numbers = Uniform(ChaCha8Rng::seed_from_u64(3));
-        const COUNT: usize = 20_000;
-        let mut mean = Mat3::zeros();
-        let mut squares = Mat3::zeros();
-        for _ in 0..COUNT {
-            let q = numbers.rotation();
-            assert!((q.norm() - 1.0).abs() < 1e-15);
-            let rotation = q.rotation();
-            mean += rotation / COUNT as f64;
-            squares += rotation.component_mul(&rotation) / COUNT as f64;
-        }
-        // Of a uniform rotation ⟨R_ij⟩ = 0, ⟨R_ij²⟩ = 1/3 with variances 1/3 and 4/45: five deviations of the means.
-        let (first, second) = (5.0 * (1.0 / 3.0 / COUNT as f64).sqrt(), 5.0 * (4.0 / 45.0 / COUNT as f64).sqrt());
-        println!("largest mean {:.4} of {first:.4}", mean.amax());
-        assert!(mean.amax() < first, "{mean}");
-        assert!((squares - Mat3::repeat(1.0 / 3.0)).amax() < second, "{squares}");
     }
 }

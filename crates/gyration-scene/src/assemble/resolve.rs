@@ -49,9 +49,12 @@ fn inclusion_start(body: &mut Body) {
 /// Placement and velocity of a body that deforms.
 fn moves(body: &mut Body, placement: &Placement, velocity: &Velocity) {
     body.orientation = None;
-    body.angular_velocity = None;
     body.gradient = Some(rows(&placement.gradient));
-    body.gradient_rate = Some(rows(&velocity.gradient_rate).map(|row| row.map(GradientRate)));
+    // A copy that is turned keeps a spin in space, and turns a rate of the gradient.
+    if body.copies.is_none() || body.gradient_rate.is_some() {
+        body.angular_velocity = None;
+        body.gradient_rate = Some(rows(&velocity.gradient_rate).map(|row| row.map(GradientRate)));
+    }
     body.velocity = velocity.velocity.map(Speed).into();
 }
 

@@ -56,7 +56,7 @@ pub(crate) fn salvage(document: &Document, context: &SceneContext, diagnostics: 
         let Ok(value) = serde_json::from_value::<Body>(json) else { continue };
         let mut found = Diagnostics::default();
         let (placed, solids) = (Placed { key: key.clone(), number: index, value }, &mut Solids::default());
-        let reporter = &mut Reporter { document, diagnostics: &mut found };
+        let reporter = &mut Reporter::new(document, &mut found);
         if let Some(prepared) = PreparedBody::new(&placed, context, solids, reporter) {
             prepared.alone(index, solids, reporter);
         }

@@ -5,7 +5,6 @@ use crate::file::{Body, Copies as Written, CopyGrid, RandomCopies};
 use crate::key::Key;
 use crate::places::{CopyPlace, MOST_COPIES, grid, read_places};
 use crate::quantity::si;
-use gyration::tensor::Vec3;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
@@ -17,8 +16,8 @@ pub(crate) enum Copies {
     Alone,
     /// At these places.
     Placed(Vec<CopyPlace>),
-    /// So many, at places that are drawn.
-    Random(usize),
+    /// At places that are drawn.
+    Random(RandomCopies),
     /// Something about them is wrong, which has been noted.
     Unknown,
 }
@@ -35,10 +34,7 @@ impl Copies {
                 if is_sound { Self::Placed(grid(written)) } else { Self::Unknown }
             }
             Written::Places(file) => match read_places(&base.join(file)) {
-                Ok(places) => {
-                    is_sound &= check_pin(body, &places, reporter);
-                    Self::Placed(places)
-                }
+                Ok(places) => Self::Placed(places),
                 Err(fault) => {
                     reporter.note(&key.key("places"), fault.to_string(), fault.help());
                     Self::Unknown
@@ -46,7 +42,7 @@ impl Copies {
             },
             Written::Random(written) => {
                 is_sound &= check_random(written, &key.key("random"), reporter);
-                Self::Random(written.count.0 as usize)
+                Self::Random(*written)
             }
         };
         if is_sound { found } else { Self::Unknown }
@@ -57,16 +53,23 @@ impl Copies {
         match self {
             Self::Alone | Self::Unknown => 1,
             Self::Placed(places) => places.len(),
-            Self::Random(count) => *count,
+            Self::Random(written) => written.count.0 as usize,
         }
     }
 }
 
 /// The bodies of the model that belong to each body of the file, well formed or not.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BodyNumbers {
     /// Where those of each begin, and where the last end.
     starts: Vec<usize>,
+}
+
+impl Default for BodyNumbers {
+    /// Of no body.
+    fn default() -> Self {
+        Self { starts: vec![0] }
+    }
 }
 
 impl BodyNumbers {
@@ -82,7 +85,7 @@ impl BodyNumbers {
 
     /// How many bodies the model has.
     pub(crate) fn count(&self) -> usize {
-        self.starts.last().copied().unwrap_or(0)
+        self.starts[self.starts.len() - 1]
     }
 
     /// Those of a body of the file.
@@ -92,7 +95,7 @@ impl BodyNumbers {
 
     /// The body of the file that each body of the model belongs to.
     pub(crate) fn written(&self) -> Vec<usize> {
-        let bodies = 0..self.starts.len().saturating_sub(1);
+        let bodies = 0..self.starts.len() - 1;
         bodies.flat_map(|number| std::iter::repeat_n(number, self.range(number).len())).collect()
     }
 }
@@ -109,9 +112,8 @@ impl CopyNames {
 
     /// The body of the model that a name is of, if it is that of a copy.
     pub(crate) fn find(&self, name: &str) -> Option<usize> {
-        let (of, number) = name.rsplit_once('-')?;
+        let (of, number) = split_copy(name)?;
         let range = self.0.get(of)?;
-        let number: usize = number.parse().ok().filter(|parsed: &usize| parsed.to_string() == number)?;
         (number < range.len()).then(|| range.start + number)
     }
 
@@ -119,6 +121,13 @@ impl CopyNames {
     pub(super) fn count(&self, name: &str) -> Option<usize> {
         self.0.get(name).map(Range::len)
     }
+}
+
+/// The body of which this would be the name of a copy, and its number.
+pub(crate) fn split_copy(name: &str) -> Option<(&str, usize)> {
+    let (of, number) = name.rsplit_once('-')?;
+    let number = number.parse().ok().filter(|parsed: &usize| parsed.to_string() == number)?;
+    Some((of, number))
 }
 
 /// Whether a body may have copies; notes why not.
@@ -134,17 +143,6 @@ fn check_body(body: &Placed<Body>, in_lattice: bool, reporter: &mut Reporter<'_>
         reporter.note(&key, message, help);
     }
     !in_lattice && body.value.spring.is_empty()
-}
-
-/// Whether the places of a pinned body give no velocity of the centre; notes it otherwise.
-fn check_pin(body: &Placed<Body>, places: &[CopyPlace], reporter: &mut Reporter<'_>) -> bool {
-    let moves = body.value.pin.is_some() && places.iter().any(|place| place.velocity != Vec3::zeros());
-    if moves {
-        let message = "the pin says how the centre of mass moves, and so do the columns vx, vy, vz";
-        let help = "leave out the columns: it follows from the spin";
-        reporter.note(&body.key.key("copies").key("places"), message, help);
-    }
-    !moves
 }
 
 /// Whether a grid has as many places as copies; notes it otherwise.
@@ -176,5 +174,10 @@ fn check_random(written: &RandomCopies, key: &Key, reporter: &mut Reporter<'_>) 
         let message = format!("along {} the second corner is below the first", ["x", "y", "z"][along]);
         reporter.note(&key.key("box"), message, "write the least corner first, [[0, 0, 0], [1, 1, 1]]");
     }
-    turned.is_none()
+    let is_bounded = (high - low).add_scalar(written.gap.value()).product().is_finite();
+    if !is_bounded {
+        let message = "the volume of the box, with the gap around it, is beyond all numbers";
+        reporter.note(&key.key("box"), message, "write a smaller box, or a smaller gap");
+    }
+    turned.is_none() && is_bounded
 }

@@ -16,7 +16,7 @@ mod signal_help;
 mod structure;
 mod values;
 
-pub(crate) use copies::{Copies, CopyNames};
+pub(crate) use copies::{Copies, CopyNames, split_copy};
 pub(crate) use joints::SPACE;
 pub(crate) use partial::PartialScene;
 pub(crate) use placed::Placed;
@@ -31,12 +31,28 @@ use crate::key::Key;
 pub(crate) struct Reporter<'a> {
     pub(crate) document: &'a Document,
     pub(crate) diagnostics: &'a mut Diagnostics,
+    /// The copy of a body that is at fault, of which a message begins to tell.
+    copy: Option<(&'a str, usize)>,
 }
 
-impl Reporter<'_> {
+impl<'a> Reporter<'a> {
+    pub(crate) fn new(document: &'a Document, diagnostics: &'a mut Diagnostics) -> Self {
+        Self { document, diagnostics, copy: None }
+    }
+
+    /// The same for a copy of a body.
+    pub(crate) fn of_copy<'b>(&'b mut self, body: &'b str, number: usize) -> Reporter<'b> {
+        Reporter { document: self.document, diagnostics: self.diagnostics, copy: Some((body, number)) }
+    }
+
+    fn told(&self, message: impl Into<String>) -> String {
+        let message = message.into();
+        self.copy.map_or(message.clone(), |(body, number)| format!("the copy \"{body}-{number}\": {message}"))
+    }
+
     /// Notes what is wrong at a key, or around it if it is absent, and what to do.
     pub(crate) fn note(&mut self, key: &Key, message: impl Into<String>, help: impl Into<String>) {
-        self.diagnostics.at(key.span(&self.document.root), key, message, help);
+        self.diagnostics.at(key.span(&self.document.root), key, self.told(message), help);
     }
 
     /// The same at a column, counted in characters from 1, of the text that stands at the key.
@@ -58,6 +74,6 @@ impl Reporter<'_> {
             span.start += from + before;
             span.end = span.start + rest;
         }
-        self.diagnostics.at(span, key, message, help);
+        self.diagnostics.at(span, key, self.told(message), help);
     }
 }

@@ -70,7 +70,7 @@ impl PartialScene {
     /// Takes from the document what nothing has been found against; tables of places are looked for in a folder.
     pub(crate) fn new(document: &Document, base: &Path, diagnostics: &mut Diagnostics) -> Self {
         let mut this = Self::take(document, diagnostics);
-        this.count_copies(base, &mut Reporter { document, diagnostics });
+        this.count_copies(base, &mut Reporter::new(document, diagnostics));
         this
     }
 

@@ -36,7 +36,7 @@ pub struct CopyGrid {
 pub struct RandomCopies {
     /// How many.
     pub count: CopyCount,
-    /// Two opposite corners of the box in which their centres of mass are (m), the least first.
+    /// Two opposite corners of the box in which their centres of mass are, from `position` (m), the least first.
     #[serde(rename = "box")]
     pub bounds: [[Length; 3]; 2],
     /// The least distance of their bounding spheres to one another and to what they have contacts with (m).

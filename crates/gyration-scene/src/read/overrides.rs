@@ -7,6 +7,7 @@
 
 use super::printed::Printed;
 use super::toml;
+use crate::check::split_copy;
 use crate::document::{Diagnostics, Document, NamedText};
 use crate::key::{Key, name_of};
 use crate::overriding::{Override, OverrideValue};
@@ -155,8 +156,7 @@ fn step<'a>(at: &'a mut Node, word: &Word<'_>, next: Option<&Word<'_>>) -> Resul
 
 /// The name of the body, with copies, of one of which this is the name.
 fn copied<'a>(items: &'a [Node], name: &str) -> Option<&'a str> {
-    let (of, number) = name.rsplit_once('-')?;
-    let body =
-        items.iter().filter(|item| item.get("copies").is_some()).find_map(|item| name_of(item).filter(|it| *it == of));
-    body.filter(|_| number.parse::<usize>().is_ok())
+    let (of, _) = split_copy(name)?;
+    let mut copied = items.iter().filter(|item| item.get("copies").is_some());
+    copied.find_map(|item| name_of(item).filter(|it| *it == of))
 }

@@ -15,7 +15,7 @@ use gyration::fluid::unsteady::vibration::vibration;
 use gyration::load::Mat12;
 use gyration::shape::{Shape, Sphere};
 use gyration::tensor::Mat3;
-use gyration_scene::{Scene, TRIANGLES};
+use gyration_scene::{Scene, TRIANGLES, suggestion};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -25,8 +25,6 @@ pub use gyration::fluid::unsteady::vibration::Vibration;
 
 /// How many triangles may be asked for.
 pub const TRIANGLES_ALLOWED: RangeInclusive<u32> = 80..=10_000;
-/// Names of bodies that a message tells.
-const MOST_NAMES: usize = 20;
 /// What rows and columns of the matrix are.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -123,10 +121,9 @@ impl Resistances {
         let named = |(index, _): &(usize, &Arc<Body>)| only.is_none_or(|name| model.name(*index) == name);
         let bodies: Vec<(usize, &Arc<Body>)> = model.bodies.iter().enumerate().filter(named).collect();
         if bodies.is_empty() {
-            let names: Vec<&str> = model.names().take(MOST_NAMES).collect();
-            let more = if model.bodies.len() > names.len() { ", …" } else { "" };
-            let fix = format!("write one of {}{more}, or the scene alone", names.join(", "));
-            return Err(NoSuchResistance::new(format!("the scene has no body {:?}", only.unwrap_or_default()), fix));
+            let only = only.unwrap_or_default();
+            let fix = format!("{}; or write the scene alone", suggestion(only, model.names(), "bodies"));
+            return Err(NoSuchResistance::new(format!("the scene has no body {only:?}"), fix));
         }
         let request = ResistanceRequest::of(scene, options)?;
         let of = |(index, body): (usize, &Arc<Body>)| {

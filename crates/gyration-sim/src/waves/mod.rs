@@ -11,15 +11,13 @@ mod passing;
 
 use crate::modes::Rest;
 use crate::modes::bands::{BandShape, Branch, LatticeWaves, NoBands, unit_phase};
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
 use exponential::exponential;
 use gyration::body::{Body, BodyKind, Slots};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::model::Model;
 use gyration::state::{RigidStart, Start, State};
 use gyration::tensor::{Mat3, Vec3, axial};
-use gyration_scene::{NoWave, Packet, StartingWave, WaveStart};
+use gyration_scene::{NoWave, Packet, StartingWave, Uniform, WaveStart};
 use gyration_threads::Interruption;
 use nalgebra::{Complex, ComplexField, Matrix3, Vector3};
 
@@ -164,12 +162,12 @@ impl<'a> Moved<'a> {
             StartingWave::Random { energy, seed } => {
                 let WaveStart { repeat, unit, .. } = *self.asked;
                 let counts: [u32; 3] = std::array::from_fn(|a| repeat[a] / unit[a]);
-                let mut phases = ChaCha8Rng::seed_from_u64(*seed);
+                let mut phases = Uniform::of_seed(*seed);
                 for number in 0..count(&counts) as u32 {
                     let along = [number % counts[0], number / counts[0] % counts[1], number / counts[0] / counts[1]];
                     let kappa = std::array::from_fn(|a| f64::from(along[a]) / f64::from(counts[a]));
                     for branch in self.waves.branches(kappa).map_err(|error| none(error, Some(index)))? {
-                        let turns = (phases.next_u64() >> 11) as f64 * 0.5_f64.powi(53);
+                        let turns = phases.number();
                         if branch.omega == 0.0 {
                             continue;
                         }
