@@ -151,8 +151,14 @@ describe("a live view", () => {
     await page.getByRole("button", { name: "Pause the run" }).click();
     await page.getByRole("button", { name: "Resume the run" }).waitFor();
     expect(await page.locator(".run-text").textContent()).toContain("Paused");
-    await page.waitForTimeout(300);
-    const rows = await page.evaluate(() => window.gyration.rows);
+    // What was on its way comes in, however much; then nothing does.
+    let rows = -1;
+    const last = async () => {
+      const before = rows;
+      rows = await page.evaluate(() => window.gyration.rows);
+      return rows - before;
+    };
+    await expect.poll(last, { interval: 300 }).toBe(0);
     await page.waitForTimeout(500);
     expect(await page.evaluate(() => window.gyration.rows)).toBe(rows);
     await page.getByRole("button", { name: "Resume the run" }).click();
