@@ -2,7 +2,8 @@
 //! group are a class, or where the scene names no group, those of a sort.
 //!
 //! Group and sort are taken from the scene as it was resolved: the first word of `group`, the kind and the word of the
-//! shape. Copies of a body, and those of a lattice, are described by it, and copies are a group. The viewer's page has the same classes (`viewer/src/data/classes.ts`).
+//! shape. Copies of a body, and those of a lattice, are described by it, and copies are a group. The viewer's page has
+//! the same classes (`viewer/src/data/classes.ts`).
 
 use serde_json::Value;
 use std::collections::HashMap;

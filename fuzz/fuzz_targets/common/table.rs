@@ -1,5 +1,5 @@
-//! What the readers of tables in time and of tables of places owe whatever bytes it gets: a scene that starts with finite numbers, or errors
-//! with a place.
+//! What the readers of tables in time and of tables of places owe whatever bytes it gets: a scene that starts with
+//! finite numbers, or errors with a place.
 
 use gyration_scene::Scene;
 use std::path::Path;

@@ -8,8 +8,8 @@ use gyration::support::Support;
 use gyration::surface::GapField;
 use std::collections::BTreeSet;
 
-/// Whether a body is clear at t = 0 of the supports with which it has contacts; notes each that it reaches, with the lift
-/// that it needs.
+/// Whether a body is clear at t = 0 of the supports with which it has contacts; notes each that it reaches, with the
+/// lift that it needs.
 pub(super) fn check(
     placed: &Placed<Body>,
     assembled: &AssembledBody,
