@@ -53,10 +53,11 @@ impl fmt::Display for Fault {
 pub struct Faults(Vec<Fault>);
 
 impl Faults {
-    /// Those found, if any.
-    pub(crate) fn of(mut found: Vec<Fault>) -> Option<Self> {
+    /// Those found, of which there is one at least.
+    pub(crate) fn of(mut found: Vec<Fault>) -> Self {
+        debug_assert!(!found.is_empty(), "a file is refused for a reason");
         found.sort_by_key(|fault| fault.line);
-        (!found.is_empty()).then_some(Self(found))
+        Self(found)
     }
 
     /// The faults, by line.

@@ -83,8 +83,7 @@ pub fn import_text(name: &str, text: &str, base: &Path, options: Options<'_>) ->
         Err(error) => {
             let line = error.pos().row as usize;
             report.fault_at(line, format!("it is no XML: {error}"), "mend the file there, or before it");
-            let nothing = Import { scene: String::new(), left_out: Vec::new(), chosen: Vec::new() };
-            return report.finish().map(|_| nothing);
+            return Err(report.into_faults());
         }
     };
     let root = document.root_element();
@@ -94,22 +93,19 @@ pub fn import_text(name: &str, text: &str, base: &Path, options: Options<'_>) ->
         other => {
             let message = format!("the first element is <{other}>, of neither URDF (<robot>) nor MJCF (<mujoco>)");
             report.fault(root, message, "give a file of URDF or MJCF");
-            robot::Robot::default()
+            return Err(report.into_faults());
         }
     };
-    let mut plan = plan::Plan::default();
-    if report.is_sound() {
-        plan = plan::plan(&robot, options.is_base_fixed, &mut report);
-        if plan.bodies.is_empty() && report.is_sound() {
-            report.fault(root, "nothing of it moves", "give links that move a mass");
-        }
-        report.choose(None, "[time]", "end and sample are one second and a hundredth of one: write others");
-        report.choose(
-            None,
-            "no [[contact]]",
-            "bodies pass through one another until contacts say by which law they meet",
-        );
+    if !report.is_sound() {
+        return Err(report.into_faults());
     }
+    let plan = plan::plan(robot, options.is_base_fixed, &mut report);
+    if plan.bodies.is_empty() && report.is_sound() {
+        report.fault(root, "nothing of it moves", "give links that move a mass");
+    }
+    report.choose(None, "[time]", "end and sample are one second and a hundredth of one: write others");
+    let why = "bodies pass through one another until contacts say by which law they meet";
+    report.choose(None, "no [[contact]]", why);
     let (left_out, chosen) = report.finish()?;
     let head = write::Head { file: name, left_out: &left_out, chosen: &chosen };
     let scene = write::text(&plan, head, options.folder);

@@ -49,6 +49,13 @@ pub(crate) fn inverse(rotation: &Quaternion) -> Quaternion {
     Quaternion([w, -x, -y, -z])
 }
 
+/// The direction of a vector of any length but zero.
+pub(crate) fn unit(vector: &Vec3) -> Option<Vec3> {
+    // The largest entry first: squares of very long or short ones leave the range of numbers.
+    let largest = vector.amax();
+    (largest > 0.0).then(|| (vector / largest).normalize())
+}
+
 /// Turns about the fixed axes x, then y, then z \[rad\]: R = Rz Ry Rx.
 pub(crate) fn roll_pitch_yaw([roll, pitch, yaw]: [f64; 3]) -> Quaternion {
     let about = |axis: Vec3, angle: f64| Quaternion::from_axis_angle(&axis, angle);

@@ -130,13 +130,18 @@ impl Report {
         self.faults.is_empty()
     }
 
+    /// What is wrong, which is something.
+    pub fn into_faults(self) -> Faults {
+        Faults::of(self.faults)
+    }
+
     /// What was left out and what was chosen, by line.
     ///
     /// # Errors
     /// All faults, by line.
     pub fn finish(mut self) -> Result<(Vec<Finding>, Vec<Finding>), Faults> {
-        if let Some(faults) = Faults::of(self.faults) {
-            return Err(faults);
+        if !self.is_sound() {
+            return Err(self.into_faults());
         }
         self.left_out.sort_by_key(|finding| finding.line);
         self.chosen.sort_by_key(|finding| finding.line);

@@ -25,6 +25,7 @@ pub(crate) struct Robot {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FixedPlane {
     pub name: String,
+    pub line: usize,
     pub origin: Vec3,
     pub normal: Vec3,
 }

@@ -1,5 +1,6 @@
 //! An element of a file, and behind it what holds where it is silent: numbers of its attributes.
 
+use crate::pose::unit;
 use crate::report::{Report, named};
 use gyration::tensor::Vec3;
 use roxmltree::Node;
@@ -91,22 +92,41 @@ impl<'a, 'i> Tag<'a, 'i> {
     /// A direction of length one; none if it is missing, or zero, which is noted.
     pub fn direction(&self, name: &str, report: &mut Report) -> Option<Vec3> {
         let written = self.vector(name, report)?;
-        let norm = written.norm();
-        if norm > 0.0 {
-            return Some(written / norm);
+        let found = unit(&written);
+        if found.is_none() {
+            self.note_zero(name, report);
         }
-        report.fault(self.node(), format!("{}: {name} is zero", named(self.node())), "write a direction, \"0 0 1\"");
-        None
+        found
     }
 
-    /// A number that is required; the default is used where it is missing, which is noted.
-    pub fn required(&self, name: &str, report: &mut Report) -> Option<f64> {
+    /// Notes that an attribute is zero where it is to be a direction.
+    pub fn note_zero(&self, name: &str, report: &mut Report) {
+        report.fault(self.node(), format!("{}: {name} is zero", named(self.node())), "write a direction, \"0 0 1\"");
+    }
+
+    /// The word of an attribute that has one of some; none if it is missing, or another, which is noted.
+    pub fn keyword<'w>(&self, name: &str, words: &[&'w str], report: &mut Report) -> Option<&'w str> {
+        let (node, text) = self.written(name)?;
+        let found = words.iter().copied().find(|word| *word == text.trim());
+        if found.is_none() {
+            let message = format!("{}: {name} = \"{text}\" is no keyword", named(node));
+            report.fault(node, message, format!("write one of {}", words.join(", ")));
+        }
+        found
+    }
+
+    /// Whether an attribute that is required is written; notes it otherwise.
+    pub fn is_given(&self, name: &str, report: &mut Report) -> bool {
         if !self.has(name) {
             let message = format!("{}: the attribute \"{name}\" is missing", named(self.node()));
             report.fault(self.node(), message, format!("write {name}=\"…\""));
-            return None;
         }
-        self.number(name, report)
+        self.has(name)
+    }
+
+    /// A number that is required; none if it is missing, or wrong, which is noted.
+    pub fn required(&self, name: &str, report: &mut Report) -> Option<f64> {
+        if self.is_given(name, report) { self.number(name, report) } else { None }
     }
 
     /// Whether lengths are > 0; notes it otherwise.

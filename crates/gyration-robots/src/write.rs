@@ -1,9 +1,9 @@
 //! A scene as text: at its head what was left out and what was chosen, then its sections.
 
-use crate::plan::{EXPONENT, Plan, PlannedBody, PlannedJoint, PlannedSupport};
+use crate::plan::{EXPONENT, JointKind, Plan, PlannedBody, PlannedJoint, PlannedSupport};
 use crate::pose::Pose;
 use crate::report::Finding;
-use crate::robot::{ConnectionKind, Part, PartShape, input_name};
+use crate::robot::{Part, PartShape, input_name};
 use gyration::kinematics::Quaternion;
 use gyration::tensor::{Mat3, Vec3};
 use std::fmt::Write as _;
@@ -79,7 +79,8 @@ fn body(body: &PlannedBody, folder: &Path) -> String {
     let mut text = format!("\n[[body]]\nname = \"{}\"\n", body.name);
     let mut center = body.mass.center;
     match &body.parts[..] {
-        [] => center = Vec3::zeros(),
+        // A body without shape has no frame in which a centre could be told.
+        [] => {}
         // The shape of one part alone has the frame of that part.
         [only] if orientation(&only.pose.rotation).is_none() => {
             center -= only.pose.position;
@@ -117,10 +118,10 @@ fn part(part: &Part, folder: &Path) -> String {
 fn joint(joint: &PlannedJoint) -> String {
     let [first, second] = &joint.between;
     let (kind, has_axis) = match joint.kind {
-        ConnectionKind::Hinge => ("hinge", true),
-        ConnectionKind::Slider => ("slider", true),
-        ConnectionKind::Ball => ("ball", false),
-        ConnectionKind::Fixed | ConnectionKind::Root | ConnectionKind::Free | ConnectionKind::Planar => ("weld", false),
+        JointKind::Hinge => ("hinge", true),
+        JointKind::Slider => ("slider", true),
+        JointKind::Ball => ("ball", false),
+        JointKind::Weld => ("weld", false),
     };
     let mut text = format!("\n[[joint]]\nname = \"{}\"\nbetween = [\"{first}\", \"{second}\"]\n", joint.name);
     text += &format!("kind = \"{kind}\"\npoints = [{}, {}]", vector(&joint.points[0]), vector(&joint.points[1]));
@@ -133,7 +134,7 @@ fn joint(joint: &PlannedJoint) -> String {
         text += &format!("stop = {{ repulsion = {{ alpha = {strength:?}, nu = {EXPONENT}, d0 = {distance:?} }} }}");
     }
     if !joint.drive.terms.is_empty() {
-        let key = if joint.kind == ConnectionKind::Hinge { "torque" } else { "force" };
+        let key = if joint.kind == JointKind::Hinge { "torque" } else { "force" };
         let constants = (1..=joint.drive.inputs).map(|number| format!("{} = 0", input_name(number)));
         let constants: Vec<String> = constants.collect();
         let constants = match constants.is_empty() {

@@ -78,6 +78,41 @@ fn numbers_that_are_none_are_told() {
 }
 
 #[test]
+fn geometry_without_a_shape_or_a_size_is_told() {
+    let cylinder = "<cylinder radius=\"0.02\" length=\"0.5\"/>";
+    for (shape, expected) in [
+        ("<box/>", "19: box of link \"thigh\": the attribute \"size\" is missing"),
+        ("<mesh/>", "19: mesh of link \"thigh\": the attribute \"filename\" is missing"),
+        ("", "19: geometry of link \"thigh\" has no shape"),
+    ] {
+        assert_eq!(of_change(URDF, cylinder, shape), expected);
+    }
+}
+
+#[test]
+fn words_that_are_no_keywords_are_told() {
+    let compiler = "angle=\"radian\" eulerseq=\"XYZ\"";
+    for (name, word) in [
+        ("angle", "radians"),
+        ("coordinate", "world"),
+        ("autolimits", "no"),
+        ("strippath", "1"),
+        ("inertiafromgeom", "yes"),
+    ] {
+        let told = of_change(MJCF, compiler, &format!("{name}=\"{word}\""));
+        assert_eq!(told, format!("3: compiler: {name} = \"{word}\" is no keyword"));
+    }
+    let told = of_change(MJCF, "<joint name=\"upper\"", "<joint name=\"upper\" limited=\"yes\" range=\"-1 1\"");
+    assert_eq!(told, "14: joint \"upper\": limited = \"yes\" is no keyword");
+    let motor = "<actuator><motor joint=\"upper\" forcelimited=\"on\"/></actuator></mujoco>";
+    let told = of_change(MJCF, "</mujoco>", motor);
+    assert!(told.contains("forcelimited = \"on\" is no keyword"), "{told}");
+    let flag = "<option gravity=\"0 0 -9.81\"><flag gravity=\"off\"/></option>";
+    let told = of_change(MJCF, "<option gravity=\"0 0 -9.81\"/>", flag);
+    assert!(told.contains("gravity = \"off\" is no keyword"), "{told}");
+}
+
+#[test]
 fn what_an_mjcf_names_must_be_there() {
     let told = of_change(MJCF, "childclass=\"shin\"", "childclass=\"chin\"");
     assert!(told.contains("there is no class \"chin\" of defaults"), "{told}");

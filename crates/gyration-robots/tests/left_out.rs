@@ -65,7 +65,7 @@ fn what_no_scene_has_of_an_mjcf_is_listed_with_its_line() {
         ("timestep", "timestep", "tolerance"),
         ("timestep", "integrator", "tolerance"),
         ("timestep", "density", "fluid"),
-        ("timestep", "<flag", "tolerance"),
+        ("timestep", "contact = \"disable\"", "[[contact]]"),
         ("<size", "size", "MuJoCo"),
         ("<visual>", "quality", "looks"),
         ("armature=", "armature = \"0.1\"", "rotors"),
@@ -107,6 +107,30 @@ fn what_no_scene_has_of_an_mjcf_is_listed_with_its_line() {
     let scene = opened(&import);
     assert_eq!(scene.file().body.len(), 3);
     assert_eq!(scene.file().joint.len(), 2);
+}
+
+#[test]
+fn defaults_and_ranges_that_a_joint_cannot_have_are_listed() {
+    let text = "<mujoco><compiler autolimits=\"false\"/>\n\
+                <default><joint stiffness=\"3\" damping=\"2\" range=\"0 1\"/></default>\n<worldbody>\n\
+                <body name=\"a\"><joint name=\"f\" type=\"free\"/><geom size=\"1\"/>\n\
+                <body name=\"b\"><joint name=\"s\" type=\"ball\" damping=\"1\"/><geom size=\"1\"/></body>\n\
+                <body name=\"c\"><joint name=\"h\" range=\"-1 1\"/><geom size=\"1\"/></body></body>\n\
+                </worldbody><actuator><motor name=\"m\" joint=\"h\" forcerange=\"-1 1\"/></actuator></mujoco>";
+    let import = imported(text);
+    for (line, what, why) in [
+        (4, "\"f\": stiffness of its defaults", "no coordinate"),
+        (4, "\"f\": damping of its defaults", "no coordinate"),
+        (4, "\"f\": range of its defaults", "no limits"),
+        (5, "\"s\": stiffness of its defaults", "no coordinate"),
+        (5, "\"s\": damping = \"1\"", "no coordinate"),
+        (5, "\"s\": range of its defaults", "no limits"),
+        (6, "\"h\": range = \"-1.0 1.0\"", "limits nothing"),
+        (7, "\"m\": forcerange = \"-1.0 1.0\"", "limits nothing"),
+    ] {
+        lists(&import.left_out, line, what, why);
+    }
+    assert_eq!(import.left_out.len(), 8, "{:#?}", import.left_out);
 }
 
 #[test]

@@ -161,11 +161,19 @@ fn what_stands_in_the_world_is_a_support() {
     assert_eq!(file.joint[0].points[0].map(|entry| entry.0), [1.0, 0.0, 1.0]);
 }
 
+/// A body on a joint that is driven.
+fn driven(head: &str, joint: &str, actuators: &str) -> String {
+    let world = format!("<body name=\"a\"><joint name=\"j\" {joint}/>{BODY}</body>");
+    format!("<mujoco>{head}<worldbody>{world}</worldbody><actuator>{actuators}</actuator></mujoco>")
+}
+
 /// The torque of the drive of a scene, as it is written.
 fn drive(joint: &str, actuators: &str) -> String {
-    let world = format!("<body name=\"a\"><joint name=\"j\" {joint}/>{BODY}</body>");
-    let text = format!("<mujoco><worldbody>{world}</worldbody><actuator>{actuators}</actuator></mujoco>");
-    let import = imported(&text);
+    drive_of(&driven("", joint, actuators))
+}
+
+fn drive_of(text: &str) -> String {
+    let import = imported(text);
     opened(&import);
     let line = import.scene.lines().find(|line| line.starts_with("drive")).unwrap();
     line.to_owned()
@@ -189,6 +197,99 @@ fn springs_dashpots_and_actuators_are_drives() {
     let reference = 90.0 * radians;
     let law = format!("2.0*u + -2.0*rate + 1.0*u_2 + 1.0*1 + -2.0*(angle + {reference:?})");
     assert_eq!(two, format!("drive = {{ torque = \"{law}\", constants = {{ u = 0, u_2 = 0 }} }}"));
+}
+
+/// What MuJoCo 3.17 and 4.0 compile of each: gain, and b₁ and b₂ of the bias.
+#[test]
+fn actuators_of_a_class_share_their_defaults() {
+    let (servo, damper) = ("<position kp=\"4\" kv=\"2\"/>", "<velocity kv=\"3\"/>");
+    let cases = [
+        (servo, "", "general", [4.0, -4.0, -2.0]),
+        (servo, "", "velocity", [1.0, 0.0, -1.0]),
+        (servo, "", "motor", [1.0, 0.0, 0.0]),
+        (servo, "<general gainprm=\"7\"/>", "position", [7.0, -7.0, -2.0]),
+        (servo, "<general gainprm=\"7\"/>", "general", [7.0, -4.0, -2.0]),
+        (servo, "<motor/>", "position", [4.0, -4.0, -2.0]),
+        (servo, "<motor/>", "general", [1.0, 0.0, 0.0]),
+        (servo, damper, "position", [4.0, -4.0, -2.0]),
+        (servo, damper, "general", [3.0, 0.0, -3.0]),
+        (damper, "<general/>", "position", [3.0, -3.0, -3.0]),
+        ("<general gainprm=\"5\"/>", "", "velocity", [5.0, 0.0, -5.0]),
+        ("<general biasprm=\"1 2 -3\"/>", "", "position", [1.0, -1.0, -3.0]),
+        ("<general biasprm=\"1 2 -3\"/>", "", "general", [1.0, 0.0, 0.0]),
+        ("<general dyntype=\"filter\"/>", "", "velocity", [1.0, 0.0, -1.0]),
+    ];
+    for (outer, inner, kind, [gain, by_length, by_rate]) in cases {
+        let head = format!("<default>{outer}<default class=\"c\">{inner}</default></default>");
+        let found = drive_of(&driven(&head, "", &format!("<{kind} joint=\"j\" class=\"c\"/>")));
+        let terms = [(gain, "u"), (by_length, "angle"), (by_rate, "rate")];
+        let terms: Vec<String> =
+            terms.iter().filter(|(factor, _)| *factor != 0.0).map(|(factor, it)| format!("{factor:?}*{it}")).collect();
+        let expected = format!("drive = {{ torque = \"{}\", constants = {{ u = 0 }} }}", terms.join(" + "));
+        assert_eq!(found, expected, "{outer} {inner} {kind}");
+    }
+    // Those common to all actuators, of whatever element.
+    let head = "<default><motor gear=\"5\" forcerange=\"-2 2\"/></default>";
+    let found = drive_of(&driven(head, "", "<general joint=\"j\"/>"));
+    assert_eq!(found, "drive = { torque = \"5.0*max(-2.0, min(2.0, 1.0*u))\", constants = { u = 0 } }");
+    let muscle = imported(&driven("<default><muscle/></default>", "", "<general name=\"g\" joint=\"j\"/>"));
+    assert!(muscle.left_out.iter().any(|finding| finding.what == "general \"g\""), "{:?}", muscle.left_out);
+}
+
+#[test]
+fn a_range_of_force_without_width_limits_nothing() {
+    let none = driven("", "", "<motor joint=\"j\" forcerange=\"0 0\"/>");
+    assert_eq!(drive_of(&none), "drive = { torque = \"1.0*u\", constants = { u = 0 } }");
+}
+
+#[test]
+fn each_actuator_of_a_joint_is_told_with_its_own_input() {
+    let import = imported(&driven("", "", "<motor name=\"m\" joint=\"j\"/><motor name=\"n\" joint=\"j\"/>"));
+    let told: Vec<&str> = import.chosen.iter().map(|finding| finding.what.as_str()).collect();
+    for (actuator, input) in [("m", "u"), ("n", "u_2")] {
+        let expected = format!("motor \"{actuator}\": its input is the constant `{input}` of the drive, zero");
+        assert!(told.contains(&expected.as_str()), "{told:?}");
+    }
+}
+
+#[test]
+fn joints_and_inertials_stand_in_the_frames_around_them() {
+    let joint = "<joint name=\"j\" axis=\"1 0 0\" pos=\"0 0 1\"/>";
+    let inertial = "<inertial pos=\"1 0 0\" mass=\"1\" diaginertia=\"1 2 2.5\"/>";
+    let frame = format!("<frame pos=\"1 2 3\" euler=\"0 0 90\">{joint}{inertial}</frame>");
+    let import = imported(&mujoco("", &format!("<body name=\"a\">{frame}</body>")));
+    assert!(import.left_out.is_empty(), "{:?}", import.left_out);
+    let scene = opened(&import);
+    let (built, joint) = (scene.built(), &scene.file().joint[0]);
+    // As MuJoCo compiles it: joint at 1 2 4 along y, centre of mass at 1 3 3, moments 2, 1, 2.5.
+    let axis = Vec3::from(joint.axis.unwrap());
+    assert!((axis - Vec3::y()).norm() < 1e-15, "{axis}");
+    assert_eq!(joint.points[0].map(|entry| entry.0), [1.0, 2.0, 4.0]);
+    let placement = built.state.motion(&built.model, 0).placement;
+    // Entries of a rotation by a quarter turn round to 2⁻⁵².
+    assert!((placement.position - Vec3::new(1.0, 3.0, 3.0)).norm() < 1e-15, "{}", placement.position);
+    let inertia = placement.gradient * built.model.bodies[0].solid.mass.inertia() * placement.gradient.transpose();
+    assert!((inertia - Mat3::from_diagonal(&Vec3::new(2.0, 1.0, 2.5))).norm() < 1e-14, "{inertia}");
+}
+
+#[test]
+fn directions_of_any_length_are_read() {
+    for (orientation, expected) in [
+        ("quat=\"1e-200 0 1e-200 0\"", about(1, 90.0)),
+        ("axisangle=\"0 1e-200 0 40\"", about(1, 40.0)),
+        ("zaxis=\"1e-200 0 0\"", about(1, 90.0)),
+        ("xyaxes=\"0 3e-200 0 -1e200 1e200 0\"", about(2, 90.0)),
+    ] {
+        // A few roundings of numbers near one.
+        assert!((turned("", orientation) - expected).norm() < 4e-15, "{orientation}");
+    }
+}
+
+#[test]
+fn gravity_that_is_switched_off_is_zero() {
+    let body = format!("<body name=\"a\"><freejoint/>{BODY}</body>");
+    let text = mujoco("<option gravity=\"0 0 -5\"><flag gravity=\"disable\"/></option>", &body);
+    assert_eq!(opened(&imported(&text)).file().world.gravity.map(|entry| entry.0), [0.0; 3]);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Links without mass, links that stand still, limits, geometry.
 
 use crate::{here, imported, opened};
+use gyration::tensor::{Mat3, Vec3};
 use gyration_robots::{Import, Options, import, import_text};
 use std::fs;
 use std::path::Path;
@@ -102,6 +103,79 @@ fn names_are_those_of_a_scene() {
     assert_eq!(names, ["space-2", "a_b", "a_b-2"]);
     assert_eq!(scene.file().joint[0].name, "j_1");
     assert!(says(&import, "\"a b\" is called \"a_b\""), "{:?}", import.chosen);
+}
+
+/// A pendulum whose limits are near the start: it hung at rest in its stop, with an energy of 310 J there.
+#[test]
+fn stops_hardly_push_where_a_joint_starts() {
+    for [low, high] in [[-0.001, 2.0], [-2.0, 1e-9], [-1.0, 1.0]] {
+        let limit = format!("<axis xyz=\"0 1 0\"/><limit lower=\"{low:?}\" upper=\"{high:?}\"/>");
+        let links = format!("<link name=\"world\"/><link name=\"a\">{INERTIAL}</link>");
+        let import = imported(&robot(&(links + &joint("j", "revolute", ["world", "a"], &limit))));
+        opened(&import);
+        let (_, behind) = import.scene.split_once("nu = 4, d0 = ").unwrap();
+        let distance: f64 = behind.split(' ').next().unwrap().parse().unwrap();
+        let push = |gap: f64| (gap / distance).powi(-4);
+        // Of the weight at the radius of gyration.
+        assert!((push(high) - push(-low)).abs() < 1e-6, "{low} {high}: {distance}");
+    }
+}
+
+#[test]
+fn limits_of_pi_with_some_digits_are_limits_of_pi() {
+    let limits = |upper: &str| {
+        let limit = format!("<limit lower=\"-{upper}\" upper=\"{upper}\"/>");
+        let links = format!("<link name=\"world\"/><link name=\"a\">{INERTIAL}</link>");
+        let import = imported(&robot(&(links + &joint("j", "revolute", ["world", "a"], &limit))));
+        opened(&import).file().joint[0].limits.map(|limits| limits.map(|limit| limit.0))
+    };
+    let pi = std::f64::consts::PI;
+    assert_eq!(limits("3.14159265359"), Some([-pi, pi]));
+    let few: f64 = "3.14159".parse().unwrap();
+    assert_eq!(limits("3.14159"), Some([-few, few]));
+    assert_eq!(limits("3.15"), None);
+}
+
+#[test]
+fn masses_without_inertia_are_part_of_what_they_are_fixed_to() {
+    let point = "<link name=\"screw\"><inertial><origin xyz=\"0.5 0 0\"/><mass value=\"0.5\"/></inertial></link>";
+    // A frame of no mass between them.
+    let text = |screw: &str| {
+        let links = format!("<link name=\"world\"/><link name=\"arm\">{INERTIAL}</link><link name=\"plate\"/>{screw}");
+        let joints = joint("a", "continuous", ["world", "arm"], "<axis xyz=\"0 1 0\"/>")
+            + &joint("b", "fixed", ["arm", "plate"], "")
+            + &joint("c", "fixed", ["plate", "screw"], "");
+        robot(&(links + &joints))
+    };
+    let import = imported(&text(point));
+    assert!(says(&import, "\"screw\" has a mass and no inertia: it is part of \"arm\""), "{:?}", import.chosen);
+    let scene = opened(&import);
+    let (built, file) = (scene.built(), scene.file());
+    assert_eq!((file.body.len(), file.joint.len()), (1, 1));
+    let mass = built.model.bodies[0].solid.mass;
+    assert_eq!(mass.mass, 2.5);
+    // The point is at 0.5 0 2 from the centre of the arm, which is at 0 0 1; the reduced mass is 2 · 0.5 / 2.5.
+    let center = built.state.motion(&built.model, 0).placement.position;
+    assert!((center - Vec3::new(0.1, 0.0, 1.4)).norm() < 1e-15, "{center}");
+    let arm = Vec3::new(0.5, 0.0, 2.0);
+    let expected = Mat3::from_diagonal_element(0.1 + 0.4 * arm.norm_squared()) - 0.4 * arm * arm.transpose();
+    assert!((mass.inertia() - expected).norm() < 1e-15, "{}", mass.inertia());
+    // Where all are points, they are one body.
+    let arm = "<link name=\"arm\"><inertial><mass value=\"1\"/></inertial></link>";
+    let points = imported(&text(point).replace(&format!("<link name=\"arm\">{INERTIAL}</link>"), arm));
+    assert!(points.scene.contains("mass = 1.5"), "{}", points.scene);
+}
+
+#[test]
+fn many_things_of_one_name_are_numbered() {
+    // What was asked of each name in turn took as many questions as there were names before it.
+    let count = 20_000;
+    let body = "<body name=\"a\"><geom name=\"g\" type=\"box\" size=\"1 1 1\"/></body>";
+    let geoms = body.replace(" name=\"a\"", "").repeat(count);
+    let link = "<body name=\"g\"><freejoint/><geom size=\"1\"/></body>";
+    let import = imported(&format!("<mujoco><worldbody>{geoms}{link}</worldbody></mujoco>"));
+    let last = format!("name = \"g-{}\"", count + 1);
+    assert_eq!(import.scene.matches(&last).count(), 1);
 }
 
 /// A tetrahedron of edge 1 along the axes, in centimetres.

@@ -98,6 +98,13 @@ pub(crate) fn name_of(item: &Node) -> Option<&str> {
     item.get("name").and_then(Node::text).filter(|name| is_name(name))
 }
 
+/// The body of which this would be the name of a copy, and its number.
+pub(crate) fn split_copy(name: &str) -> Option<(&str, usize)> {
+    let (of, number) = name.rsplit_once('-')?;
+    let number = number.parse().ok().filter(|parsed: &usize| parsed.to_string() == number)?;
+    Some((of, number))
+}
+
 /// Whether a text matches `[A-Za-z0-9_-]+`.
 pub(crate) fn is_name(text: &str) -> bool {
     !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-')

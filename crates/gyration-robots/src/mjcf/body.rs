@@ -15,6 +15,7 @@ use roxmltree::Node;
 
 /// Bodies within bodies that are read: a chain of so many links is no robot.
 const DEEPEST: usize = 500;
+const IN_WORLD: [&str; 3] = ["body", "geom", "frame"];
 const INSIDE: [&str; 6] = ["body", "geom", "joint", "freejoint", "inertial", "frame"];
 
 /// What the contents of a body, or of the world, stand in.
@@ -34,14 +35,14 @@ struct Around<'a> {
 struct Contents<'a, 'i> {
     bodies: Vec<(Node<'a, 'i>, Pose, Option<&'a str>)>,
     geoms: Vec<Geom>,
-    joints: Vec<(Node<'a, 'i>, Option<&'a str>)>,
-    inertial: Option<Node<'a, 'i>>,
+    joints: Vec<(Node<'a, 'i>, Pose, Option<&'a str>)>,
+    inertial: Option<(Node<'a, 'i>, Pose)>,
 }
 
 impl<'a, 'i> Reader<'a, 'i, '_> {
     /// The world and all bodies.
     pub(super) fn world(&mut self, node: Node<'a, 'i>) {
-        self.report.rest(node, Read { attributes: &[], elements: &["body", "geom", "frame"], why });
+        self.report.rest(node, Read { attributes: &[], elements: &IN_WORLD, why });
         let around = Around { pose: Pose::SAME, link: None, name: "world", childclass: None, depth: 0 };
         let contents = self.contents(node, &around);
         self.fix(contents.geoms, &around);
@@ -68,8 +69,8 @@ impl<'a, 'i> Reader<'a, 'i, '_> {
         let mut around = Around { pose, link: outer.link, name, childclass, depth: outer.depth + 1 };
         let contents = self.contents(node, &around);
         let mut joints = Vec::new();
-        for (joint, childclass) in &contents.joints {
-            joints.push(self.joint(*joint, (&pose, name), *childclass));
+        for (joint, frame, childclass) in &contents.joints {
+            joints.push(self.joint(*joint, (&pose.then(frame), name), *childclass));
         }
         let stands_still = joints.is_empty() && outer.link.is_none();
         if stands_still {
@@ -104,19 +105,23 @@ impl<'a, 'i> Reader<'a, 'i, '_> {
     /// What stands in a body or in the world, through all frames within it.
     fn contents(&mut self, node: Node<'a, 'i>, around: &Around<'a>) -> Contents<'a, 'i> {
         let mut contents = Contents::default();
+        let inside: &[&str] = if around.depth == 0 { &IN_WORLD } else { &INSIDE };
         let mut waiting = vec![(node, Pose::SAME, around.childclass)];
         while let Some((holder, frame, childclass)) = waiting.pop() {
             for child in elements(holder) {
                 match child.tag_name().name() {
                     "body" => contents.bodies.push((child, frame, childclass)),
                     "geom" => contents.geoms.extend(self.geom(child, &frame, childclass)),
-                    "joint" | "freejoint" => contents.joints.push((child, childclass)),
-                    "inertial" => contents.inertial = contents.inertial.or(Some(child)),
+                    "joint" | "freejoint" => contents.joints.push((child, frame, childclass)),
+                    "inertial" if contents.inertial.is_some() && holder != node => {
+                        let what = format!("{}: a second <inertial>", named(node));
+                        self.report.leave_out(child, what, "it has one, and the first is read");
+                    }
+                    "inertial" => contents.inertial = contents.inertial.or(Some((child, frame))),
                     "frame" => {
                         let attributes: Vec<&str> =
                             ["name", "childclass", "pos"].into_iter().chain(ORIENTATIONS).collect();
-                        let elements = &["body", "geom", "frame"];
-                        self.report.rest(child, Read { attributes: &attributes, elements, why });
+                        self.report.rest(child, Read { attributes: &attributes, elements: inside, why });
                         let own = self.compiler.pose(&Tag::alone(child), self.report);
                         waiting.push((child, frame.then(&own), child.attribute("childclass").or(childclass)));
                     }
@@ -130,13 +135,13 @@ impl<'a, 'i> Reader<'a, 'i, '_> {
 
     /// Geometry that stands still.
     fn fix(&mut self, geoms: Vec<Geom>, around: &Around<'a>) {
-        for Geom { name, kind, collides, .. } in geoms {
+        for Geom { name, line, kind, collides, .. } in geoms {
             let name = name.unwrap_or_else(|| around.name.to_owned());
             match kind {
                 GeomKind::Plane(pose) => {
                     let pose = around.pose.then(&pose);
                     let normal = pose.direct(&Vec3::z());
-                    self.robot.planes.push(FixedPlane { name, origin: pose.position, normal });
+                    self.robot.planes.push(FixedPlane { name, line, origin: pose.position, normal });
                 }
                 GeomKind::Solid(part) if collides => {
                     let part = Part { pose: around.pose.then(&part.pose), ..part };
@@ -175,8 +180,8 @@ impl<'a, 'i> Reader<'a, 'i, '_> {
     }
 
     /// The mass of a body in its frame: as written, or that of its geometry.
-    fn body_mass(&mut self, inertial: Option<Node<'a, 'i>>, geoms: &[Geom]) -> Option<MassProperties> {
-        let written = inertial.and_then(|node| self.inertial(node));
+    fn body_mass(&mut self, inertial: Option<(Node<'a, 'i>, Pose)>, geoms: &[Geom]) -> Option<MassProperties> {
+        let written = inertial.and_then(|(node, frame)| self.inertial(node, &frame));
         let from_geometry = match self.compiler.from_geometry {
             Some(always) => always,
             None => inertial.is_none(),
@@ -188,12 +193,12 @@ impl<'a, 'i> Reader<'a, 'i, '_> {
         (!masses.is_empty()).then(|| MassProperties::sum(masses))
     }
 
-    fn inertial(&mut self, node: Node<'a, 'i>) -> Option<MassProperties> {
+    fn inertial(&mut self, node: Node<'a, 'i>, outer: &Pose) -> Option<MassProperties> {
         let attributes: Vec<&str> =
             ["pos", "mass", "diaginertia", "fullinertia"].into_iter().chain(ORIENTATIONS).collect();
         self.report.rest(node, Read { attributes: &attributes, elements: &[], why });
         let tag = Tag::alone(node);
-        let frame = self.compiler.pose(&tag, self.report);
+        let frame = outer.then(&self.compiler.pose(&tag, self.report));
         let mass = tag.required("mass", self.report)?;
         let diagonal = tag.vector("diaginertia", self.report);
         let full = tag.numbers::<6>("fullinertia", self.report);

@@ -1,7 +1,7 @@
 //! How numbers and names of a file are to be read: `compiler`.
 
 use super::why::why;
-use crate::pose::{Pose, of_axes, turned, z_axis_to};
+use crate::pose::{Pose, of_axes, turned, unit, z_axis_to};
 use crate::report::{Read, Report, elements, named};
 use crate::tag::Tag;
 use gyration::kinematics::Quaternion;
@@ -11,6 +11,8 @@ use std::path::{Path, PathBuf};
 
 const ATTRIBUTES: [&str; 8] =
     ["angle", "coordinate", "eulerseq", "autolimits", "meshdir", "assetdir", "strippath", "inertiafromgeom"];
+/// Sine of the angle between two axes that is rounding.
+const ROUNDING: f64 = 1e-15;
 /// Attributes that turn a frame.
 pub(super) const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
@@ -41,7 +43,7 @@ impl Compiler {
         }
         let Some(last) = written.first() else { return Self::defaults(folder) };
         let tag = Tag::with(*last, written[1..].iter().copied());
-        if tag.text("coordinate") == Some("global") {
+        if tag.keyword("coordinate", &["local", "global"], report) == Some("global") {
             let fix = "save the model with local coordinates by the MuJoCo that wrote it";
             report.fault(*last, "coordinate = \"global\" is not read, nor is it by MuJoCo since 2.3.4", fix);
         }
@@ -52,12 +54,15 @@ impl Compiler {
         }
         let defaults = Self::defaults(folder);
         Self {
-            unit: if tag.text("angle") == Some("radian") { 1.0 } else { defaults.unit },
+            unit: match tag.keyword("angle", &["degree", "radian"], report) {
+                Some("radian") => 1.0,
+                _ => defaults.unit,
+            },
             sequence: if is_sequence { sequence } else { defaults.sequence },
-            has_automatic_limits: tag.text("autolimits") != Some("false"),
+            has_automatic_limits: tag.keyword("autolimits", &["true", "false"], report) != Some("false"),
             meshes: folder.join(tag.text("meshdir").or(tag.text("assetdir")).unwrap_or("")),
-            strips_paths: tag.text("strippath") == Some("true"),
-            from_geometry: match tag.text("inertiafromgeom") {
+            strips_paths: tag.keyword("strippath", &["true", "false"], report) == Some("true"),
+            from_geometry: match tag.keyword("inertiafromgeom", &["true", "false", "auto"], report) {
                 Some("true") => Some(true),
                 Some("false") => Some(false),
                 _ => None,
@@ -81,6 +86,27 @@ impl Compiler {
         if self.strips_paths { written.rsplit(['/', '\\']).next().unwrap_or(written) } else { written }
     }
 
+    /// The two ends of a range that limits, as the attribute `limited` or the compiler says; lists one that does not.
+    pub fn limits(&self, tag: &Tag<'_, '_>, [range, limited]: [&str; 2], report: &mut Report) -> Option<[f64; 2]> {
+        let is_limited = match tag.keyword(limited, &["true", "false", "auto"], report) {
+            Some("true") => true,
+            Some("false") => false,
+            _ => self.has_automatic_limits,
+        };
+        let [low, high] = tag.numbers(range, report)?;
+        if is_limited && low < high {
+            return Some([low, high]);
+        }
+        let what = format!("{}: {range} = \"{low:?} {high:?}\"", named(tag.node()));
+        let why = if is_limited {
+            "there is nothing between its ends"
+        } else {
+            "it limits nothing: `autolimits`, or the attribute that would switch it on, is false"
+        };
+        report.leave_out(tag.node(), what, why);
+        None
+    }
+
     /// The frame of an element in that around it.
     pub fn pose(&self, tag: &Tag<'_, '_>, report: &mut Report) -> Pose {
         let position = tag.vector("pos", report).unwrap_or_default();
@@ -102,34 +128,30 @@ impl Compiler {
     }
 
     fn turn(&self, name: &str, tag: &Tag<'_, '_>, report: &mut Report) -> Option<Quaternion> {
-        let zero = |report: &mut Report| {
-            report.fault(tag.node(), format!("{}: {name} is zero", named(tag.node())), "write a direction");
-        };
         match name {
             "quat" => {
-                let rotation = Quaternion(tag.numbers(name, report)?);
-                if rotation.norm() > 0.0 {
-                    return Some(rotation.normalized());
+                let along = Quaternion::along(tag.numbers(name, report)?);
+                if along.is_none() {
+                    tag.note_zero(name, report);
                 }
-                zero(report);
-                None
+                along
             }
             "axisangle" => {
                 let [x, y, z, angle] = tag.numbers(name, report)?;
-                let axis = Vec3::new(x, y, z);
-                if axis.norm() > 0.0 {
-                    return Some(Quaternion::from_axis_angle(&axis, angle * self.unit));
+                let axis = unit(&Vec3::new(x, y, z));
+                if axis.is_none() {
+                    tag.note_zero(name, report);
                 }
-                zero(report);
-                None
+                axis.map(|axis| Quaternion::from_axis_angle(&axis, angle * self.unit))
             }
             "xyaxes" => {
                 let [a, b, c, d, e, f] = tag.numbers(name, report)?;
-                let (x, second) = (Vec3::new(a, b, c), Vec3::new(d, e, f));
-                let (x, across) = (x / x.norm(), second - x * (x.dot(&second) / x.norm_squared()));
-                let y = across / across.norm();
-                if x.iter().chain(&y).all(|entry| entry.is_finite()) {
-                    return Some(of_axes(&x, &y, &x.cross(&y)));
+                if let (Some(x), Some(second)) = (unit(&Vec3::new(a, b, c)), unit(&Vec3::new(d, e, f))) {
+                    let across = second - x * x.dot(&second);
+                    if across.norm() > ROUNDING {
+                        let y = across.normalize();
+                        return Some(of_axes(&x, &y, &x.cross(&y)));
+                    }
                 }
                 let message = format!("{}: the axes of xyaxes have one direction, or none", named(tag.node()));
                 report.fault(tag.node(), message, "write two directions across one another");

@@ -1,5 +1,6 @@
 //! Classes of defaults: a tree, whose root holds for all.
 
+use super::actuator::{KINDS, SHARING};
 use super::why::why;
 use crate::report::{Read, Report, elements};
 use crate::tag::Tag;
@@ -9,15 +10,8 @@ use std::collections::BTreeMap;
 /// The class of what names none and stands in no body that does.
 const MAIN: &str = "main";
 /// Elements whose defaults are read, with their attributes.
-const READ: [(&str, &[&str]); 7] = [
-    ("geom", super::geom::ATTRIBUTES),
-    ("joint", super::joint::ATTRIBUTES),
-    ("mesh", &["scale"]),
-    ("motor", super::actuator::MOTOR),
-    ("position", super::actuator::POSITION),
-    ("velocity", super::actuator::VELOCITY),
-    ("general", super::actuator::GENERAL),
-];
+const READ: [(&str, &[&str]); 3] =
+    [("geom", super::geom::ATTRIBUTES), ("joint", super::joint::ATTRIBUTES), ("mesh", &["scale"])];
 
 /// The defaults of a file.
 #[derive(Debug, Default)]
@@ -47,11 +41,12 @@ impl<'a, 'i> Defaults<'a, 'i> {
                 defaults.top.get_or_insert(class);
             }
             let mut known = vec!["default"];
-            known.extend(READ.iter().map(|(tag, _)| *tag));
+            let read = || READ.iter().chain(&KINDS);
+            known.extend(read().map(|(tag, _)| *tag));
             report.rest(node, Read { attributes: &["class"], elements: &known, why });
             for child in elements(node) {
                 let tag = child.tag_name().name();
-                if let Some((_, attributes)) = READ.iter().find(|(known, _)| *known == tag) {
+                if let Some((_, attributes)) = read().find(|(known, _)| *known == tag) {
                     report.rest(child, Read { attributes, elements: &[], why });
                 }
             }
@@ -75,10 +70,18 @@ impl<'a, 'i> Defaults<'a, 'i> {
         // A class within itself would be a circle.
         for _ in 0..=self.classes.len() {
             let Some((nodes, outer)) = class.and_then(|name| self.classes.get(name)) else { break };
-            let alike = |child: &Node<'a, 'i>| child.tag_name().name() == node.tag_name().name();
-            layers.extend(nodes.iter().flat_map(|holder| elements(*holder).filter(alike)));
+            let mut own: Vec<_> = nodes.iter().flat_map(|holder| elements(*holder)).collect();
+            own.retain(|child| is_default_of(child.tag_name().name(), node.tag_name().name()));
+            // The last written is the nearest.
+            own.sort_by_key(|child| std::cmp::Reverse(child.range().start));
+            layers.extend(own);
             class = *outer;
         }
         Tag::with(node, layers)
     }
+}
+
+/// Whether a default of one name holds for an element of another: all actuators of a class share theirs.
+fn is_default_of(default: &str, element: &str) -> bool {
+    default == element || (SHARING.contains(&default) && SHARING.contains(&element))
 }

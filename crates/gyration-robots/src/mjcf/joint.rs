@@ -24,7 +24,7 @@ pub(super) struct WrittenJoint<'a, 'i> {
 }
 
 impl<'a, 'i> Reader<'a, 'i, '_> {
-    /// A joint of a body whose frame stands in space at `pose`.
+    /// A joint of a body that stands in space at `pose`, which is that of the frame around the joint within it.
     pub(super) fn joint(
         &mut self,
         node: Node<'a, 'i>,
@@ -55,20 +55,20 @@ impl<'a, 'i> Reader<'a, 'i, '_> {
         let attributes = if connection.kind.coordinate().is_some() { ATTRIBUTES } else { WITHOUT_COORDINATE };
         self.report.rest(node, Read { attributes, elements: &[], why });
         let Some(coordinate) = connection.kind.coordinate() else {
+            // Those of the element itself are listed with the rest of it.
+            let unread = ATTRIBUTES.iter().filter(|name| !WITHOUT_COORDINATE.contains(name));
+            for name in unread.filter(|name| tag.has(name) && !node.has_attribute(**name)) {
+                let what = format!("{}: {name} of its defaults", named(node));
+                self.report.leave_out(node, what, why(name));
+            }
             return WrittenJoint { node, connection, reference: 0.0 };
         };
-        let axis = if tag.has("axis") { tag.direction("axis", self.report) } else { None };
-        connection.axis = pose.direct(&axis.unwrap_or_else(Vec3::z));
+        connection.axis = pose.direct(&tag.direction("axis", self.report).unwrap_or_else(Vec3::z));
         let unit = if connection.kind == ConnectionKind::Hinge { self.compiler.unit } else { 1.0 };
         let number = |name: &str, reader: &mut Self| tag.number(name, reader.report).unwrap_or(0.0);
         let reference = unit * number("ref", self);
-        let range = tag.numbers::<2>("range", self.report).map(|range| range.map(|end| unit * end - reference));
-        let is_limited = match tag.text("limited") {
-            Some("true") => true,
-            Some("false") => false,
-            _ => self.compiler.has_automatic_limits,
-        };
-        connection.limits = range.filter(|_| is_limited);
+        let range = self.compiler.limits(&tag, ["range", "limited"], self.report);
+        connection.limits = range.map(|range| range.map(|end| unit * end - reference));
         let relaxed = unit * number("springref", self) - reference;
         for (name, what) in [("stiffness", shifted(coordinate, relaxed)), ("damping", "rate".to_owned())] {
             let Some(numbers) = tag.list(name, self.report) else { continue };
@@ -87,11 +87,11 @@ impl<'a, 'i> Reader<'a, 'i, '_> {
 
     /// The one connection that several joints of a body are, beside the world or another body.
     pub(super) fn together(&mut self, joints: &[WrittenJoint<'a, 'i>], body: &str, is_in_world: bool) -> Connection {
-        let [first, ..] = joints else { return Connection::free(body, 0) };
+        let first = &joints[0].connection;
         if let [only] = joints {
             return only.connection.clone();
         }
-        let free = Connection::free(body, first.connection.line);
+        let free = Connection::free(body, first.line);
         let found = one_of(joints, is_in_world);
         for joint in joints {
             let Connection { limits, drive, .. } = &joint.connection;
@@ -111,8 +111,8 @@ impl<'a, 'i> Reader<'a, 'i, '_> {
             ConnectionKind::Planar => "two slides and a hinge across them are `keep = { plane = … }`",
             _ => "three slides and a ball are no joint at all",
         };
-        self.report.choose(Some(first.connection.line), what, why);
-        Connection { kind, axis, point: first.connection.point, ..free }
+        self.report.choose(Some(first.line), what, why);
+        Connection { kind, axis, point: first.point, ..free }
     }
 }
 

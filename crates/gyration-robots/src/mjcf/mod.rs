@@ -9,6 +9,7 @@ mod compiler;
 mod defaults;
 mod geom;
 mod joint;
+mod law;
 mod why;
 
 use crate::report::{Read, Report, elements};
@@ -16,10 +17,11 @@ use crate::robot::Robot;
 use crate::tag::Tag;
 use compiler::Compiler;
 use defaults::Defaults;
+use gyration::tensor::Vec3;
 use roxmltree::Node;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use why::{why, why_of_equality, why_of_sensor};
+use why::{why, why_of_equality, why_of_flag, why_of_sensor};
 
 /// A file that is being read.
 pub(crate) struct Reader<'a, 'i, 'r> {
@@ -78,10 +80,18 @@ impl<'a, 'i> Reader<'a, 'i, '_> {
             };
             self.report.rest(section, Read { attributes: &[], elements: &[], why });
         }
+        let mut weighs = None;
         for option in all("option") {
-            self.report.rest(option, Read { attributes: &["gravity"], elements: &[], why });
+            self.report.rest(option, Read { attributes: &["gravity"], elements: &["flag"], why });
             let gravity = Tag::alone(option).vector("gravity", self.report);
             self.robot.gravity = gravity.or(self.robot.gravity);
+        }
+        for flag in all("option").flat_map(elements).filter(|node| node.tag_name().name() == "flag") {
+            self.report.rest(flag, Read { attributes: &["gravity"], elements: &[], why: why_of_flag });
+            weighs = Tag::alone(flag).keyword("gravity", &["disable", "enable"], self.report).or(weighs);
+        }
+        if weighs == Some("disable") {
+            self.robot.gravity = Some(Vec3::zeros());
         }
         for asset in all("asset") {
             self.report.rest(asset, Read { attributes: &[], elements: &["mesh"], why });

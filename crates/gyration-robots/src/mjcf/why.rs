@@ -24,24 +24,11 @@ pub(super) fn why(name: &str) -> &'static str {
         "spatial" | "fixed" => "a scene has no tendons: write springs or a `drive`",
         "site" => "a point without mass is none of a scene",
         "key" | "keyframe" => "a scene starts with the joints at their `ref`",
-        "timestep"
-        | "integrator"
-        | "solver"
-        | "iterations"
-        | "tolerance"
-        | "cone"
-        | "jacobian"
-        | "impratio"
-        | "flag"
-        | "ls_iterations"
-        | "ls_tolerance"
-        | "noslip_iterations"
-        | "noslip_tolerance"
-        | "ccd_iterations"
-        | "ccd_tolerance"
-        | "sdf_iterations"
-        | "sdf_initpoints"
-        | "actuatorgroupdisable" => "the solver of a scene chooses its steps by a tolerance",
+        "timestep" | "integrator" | "solver" | "iterations" | "tolerance" | "cone" | "jacobian" | "impratio"
+        | "ls_iterations" | "ls_tolerance" | "noslip_iterations" | "noslip_tolerance" | "ccd_iterations"
+        | "ccd_tolerance" | "sdf_iterations" | "sdf_initpoints" => {
+            "the solver of a scene chooses its steps by a tolerance"
+        }
         "wind" | "density" | "viscosity" | "fluidshape" | "fluidcoef" => {
             "the fluid of a scene is another model: see [fluid]"
         }
@@ -56,8 +43,18 @@ pub(super) fn why(name: &str) -> &'static str {
         }
         "plugin" | "extension" | "custom" | "numeric" | "text" | "tuple" | "user" | "size" | "statistic" | "memory"
         | "nuserdata" | "njmax" | "nconmax" | "nstack" | "nkey" => "it belongs to the program MuJoCo",
-        "kv" | "dampratio" | "timeconst" | "inheritrange" | "dyntype" | "dynprm" | "actdim" | "actrange"
-        | "actlimited" | "actearly" | "lengthrange" | "cranklength" => "an actuator of a scene has no state",
+        "timeconst" | "dyntype" | "dynprm" | "actdim" | "actrange" | "actlimited" | "actearly" => {
+            "an actuator of a scene has no state"
+        }
+        "kp" | "kv" => "an actuator of this kind has no such gain",
+        "dampratio" => "its damping follows from the inertia at the start: write it as kv",
+        "inheritrange" => "it is the range of an input, which is what the scene says",
+        "lengthrange" => "it is the range of length of a muscle, and a scene has no muscles",
+        "cranklength" | "cranksite" | "slidersite" => {
+            "a scene has no cranks: write their transmission into the `drive`"
+        }
+        "actuatorgroupdisable" => "it switches actuators off: take them out of the `drive`",
+        "axis" | "ref" => "a joint of this type has no axis and no coordinate",
         "sensor" => "a scene has no sensors: a recording has the motion of every body",
         _ => "it has no counterpart in a scene",
     }
@@ -71,4 +68,18 @@ pub(super) fn why_of_sensor(_: &str) -> &'static str {
 /// The reason of what stands in a section of equalities.
 pub(super) fn why_of_equality(_: &str) -> &'static str {
     why("equality")
+}
+
+/// The reason of what a `flag` switches.
+pub(super) fn why_of_flag(name: &str) -> &'static str {
+    match name {
+        "contact" | "filterparent" => why("contact"),
+        "sensor" => why("sensor"),
+        "equality" => why("equality"),
+        "frictionloss" => why("frictionloss"),
+        "limit" | "passive" | "spring" | "damper" | "actuation" | "clampctrl" => {
+            "it switches a part of the model, which the scene has as if it were on: take it out by hand"
+        }
+        _ => why("solver"),
+    }
 }

@@ -13,10 +13,10 @@ const ROUNDING: f64 = 1e-12;
 /// Square of the cosine of half the angle between two axes from which on a turn about them is well defined.
 const DEFINED: f64 = 1e-6;
 
-/// The axes of the body of each link.
-pub(super) fn body_axes(robot: &Robot, hosts: &Hosts) -> Vec<Quaternion> {
+/// The axes of the body of each link; bodies stand behind those to which they are joined.
+pub(super) fn body_axes(robot: &Robot, hosts: &Hosts, bodies: &[usize]) -> Vec<Quaternion> {
     let mut axes: Vec<Quaternion> = robot.links.iter().map(|link| link.pose.rotation).collect();
-    for index in hosts.bodies(robot) {
+    for &index in bodies {
         let connection = hosts.connection(robot, index);
         if connection.kind != ConnectionKind::Hinge {
             continue;

@@ -1,7 +1,7 @@
 //! Links that are fixed to one another, and which body each is part of.
 
 use crate::report::Report;
-use crate::robot::{Connection, ConnectionKind, Robot};
+use crate::robot::{Connection, ConnectionKind, Link, Robot};
 
 /// The name of the root that stands still by custom.
 const WORLD: &str = "world";
@@ -72,17 +72,24 @@ impl Hosts {
     }
 }
 
+/// The first link of the group of each.
+pub(super) fn firsts(robot: &Robot) -> Vec<usize> {
+    let mut first: Vec<usize> = Vec::new();
+    for (index, link) in robot.links.iter().enumerate() {
+        first.push(parent_if_fixed(link).map_or(index, |parent| first[parent]));
+    }
+    first
+}
+
+/// The link to which one is fixed.
+fn parent_if_fixed(link: &Link) -> Option<usize> {
+    link.connection.parent.filter(|_| link.connection.kind == ConnectionKind::Fixed)
+}
+
 /// Which body each link is part of; notes links that move other ones and have no mass.
 pub(super) fn hosts(robot: &Robot, is_base_fixed: bool, report: &mut Report) -> Hosts {
     let links = &robot.links;
-    let parent_if_fixed = |index: usize| {
-        let connection = &links[index].connection;
-        connection.parent.filter(|_| connection.kind == ConnectionKind::Fixed)
-    };
-    let mut first: Vec<usize> = Vec::new();
-    for index in 0..links.len() {
-        first.push(parent_if_fixed(index).map_or(index, |parent| first[parent]));
-    }
+    let first = firsts(robot);
     // The link with mass that each group has first, and whether anything beyond a group has mass.
     let mut head: Vec<Option<usize>> = vec![None; links.len()];
     let mut carries = vec![false; links.len()];
@@ -103,7 +110,7 @@ pub(super) fn hosts(robot: &Robot, is_base_fixed: bool, report: &mut Report) -> 
             Host::Space
         } else if link.mass.is_some() {
             Host::Link(index)
-        } else if let Some(parent) = parent_if_fixed(index) {
+        } else if let Some(parent) = parent_if_fixed(link) {
             of[parent]
         } else if let Some(head) = head[index] {
             Host::Link(head)

@@ -7,6 +7,7 @@
 mod axes;
 mod groups;
 mod names;
+mod points;
 mod stop;
 
 use crate::pose::{Pose, turned};
@@ -19,7 +20,7 @@ use gyration::mass::MassProperties;
 use gyration::tensor::Vec3;
 use names::Names;
 pub(crate) use stop::{EXPONENT, PlannedStop};
-use stop::{limits, stop};
+use stop::{hanging, limits, stop};
 
 /// A scene in numbers.
 #[derive(Debug, Default)]
@@ -62,12 +63,12 @@ pub(crate) struct PlannedBody {
     pub kept: Option<Vec3>,
 }
 
-/// A joint; none of its numbers are those of space where it holds a body to another.
+/// A joint between two bodies, or between space and one.
 #[derive(Debug)]
 pub(crate) struct PlannedJoint {
     pub name: String,
     pub between: [String; 2],
-    pub kind: ConnectionKind,
+    pub kind: JointKind,
     /// From the centre of mass of each, in its axes; of space a place.
     pub points: [Vec3; 2],
     /// In the axes of the first.
@@ -76,11 +77,25 @@ pub(crate) struct PlannedJoint {
     pub drive: Drive,
 }
 
+/// What a scene calls a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum JointKind {
+    Weld,
+    Hinge,
+    Slider,
+    Ball,
+}
+
 /// The scene of a robot; `is_base_fixed`: its root stands still. Notes what no scene can have.
-pub(crate) fn plan(robot: &Robot, is_base_fixed: bool, report: &mut Report) -> Plan {
+pub(crate) fn plan(mut robot: Robot, is_base_fixed: bool, report: &mut Report) -> Plan {
     let mut plan = Plan { title: robot.name.clone(), gravity: robot.gravity, ..Plan::default() };
-    let hosts = hosts(robot, is_base_fixed, report);
-    let axes = body_axes(robot, &hosts);
+    let points = points::take(&mut robot);
+    let hosts = hosts(&robot, is_base_fixed, report);
+    points::lump(&mut robot, &hosts, &points, report);
+    let robot = &robot;
+    let bodies = hosts.bodies(robot);
+    let axes = body_axes(robot, &hosts, &bodies);
+    let hangs = hanging(robot, &hosts, &bodies);
     let mut names = Names::default();
     let mut words: Vec<Option<String>> = Vec::new();
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); robot.links.len()];
@@ -94,13 +109,13 @@ pub(crate) fn plan(robot: &Robot, is_base_fixed: bool, report: &mut Report) -> P
         words.push(is_body.then(|| names.take(&link.name, link.line, report)));
     }
     for plane in &robot.planes {
-        let name = names.take(&plane.name, 0, report);
+        let name = names.take(&plane.name, plane.line, report);
         plan.planes.push(PlannedPlane { name, origin: plane.origin, normal: plane.normal });
     }
     supports(robot, &hosts, &mut names, &mut plan, report);
     let mut joint_names = Names::default();
     for (index, link) in robot.links.iter().enumerate() {
-        let (Some(name), Some(mass)) = (&words[index], link.mass) else { continue };
+        let (Some(name), Some(mass), Some(hangs)) = (&words[index], link.mass, hangs[index]) else { continue };
         let lumped = members[index].iter().map(|member| &robot.links[*member]);
         plan.bodies.push(body((name, link), &mass, &axes[index], lumped));
         let connection = hosts.connection(robot, index);
@@ -109,35 +124,32 @@ pub(crate) fn plan(robot: &Robot, is_base_fixed: bool, report: &mut Report) -> P
             Host::Link(parent) => [Some(parent), Some(index)],
             Host::Space | Host::Nothing => [None, Some(index)],
         };
-        let holds = match connection.kind {
-            ConnectionKind::Root | ConnectionKind::Free => false,
+        let kind = match connection.kind {
+            ConnectionKind::Root | ConnectionKind::Free => continue,
             ConnectionKind::Planar => {
                 keep(&mut plan, connection, parent, report);
-                false
+                continue;
             }
-            ConnectionKind::Fixed | ConnectionKind::Hinge | ConnectionKind::Slider | ConnectionKind::Ball => true,
+            ConnectionKind::Fixed => JointKind::Weld,
+            ConnectionKind::Hinge => JointKind::Hinge,
+            ConnectionKind::Slider => JointKind::Slider,
+            ConnectionKind::Ball => JointKind::Ball,
         };
-        if !holds {
-            continue;
-        }
-        if mass.euler_tensor.trace() == 0.0 && connection.kind != ConnectionKind::Ball {
+        if mass.euler_tensor.trace() == 0.0 && kind != JointKind::Ball {
             let message = format!("\"{}\" has a mass and no inertia: a joint turns it", link.name);
             report.fault_at(link.line, message, "write its inertia, or that of a small ball, 2/5 m r²");
             continue;
         }
-        let point = match connection.kind {
-            ConnectionKind::Fixed => link.pose.position,
-            _ => connection.point,
-        };
+        let point = if kind == JointKind::Weld { link.pose.position } else { connection.point };
         let frame = |end: Option<usize>| end.map_or(Pose::SAME, |end| frame_of_body(robot, end, &axes));
         let points = ends.map(|end| Pose { position: point, ..Pose::SAME }.within(&frame(end)).position);
         let axis = crate::pose::inverse(&frame(ends[0]).rotation).rotation() * connection.axis;
         let word = |end: Option<usize>| end.and_then(|end| words[end].clone()).unwrap_or_else(|| "space".to_owned());
-        let limits = limits(connection, report).map(|limits| (limits, stop(robot, &hosts, index, limits)));
+        let limits = limits(connection, report).map(|limits| (limits, stop(connection, &hangs, limits)));
         plan.joints.push(PlannedJoint {
             name: joint_names.take(&connection.name, connection.line, report),
             between: ends.map(word),
-            kind: connection.kind,
+            kind,
             points,
             axis,
             limits,
@@ -145,8 +157,9 @@ pub(crate) fn plan(robot: &Robot, is_base_fixed: bool, report: &mut Report) -> P
         });
     }
     if plan.joints.iter().any(|joint| joint.limits.is_some()) {
-        let why = "a file has hard limits, a scene fields: at a hundredth of the range from a limit each pushes as much \
-                   as the weight of all that hangs on the joint, at its radius of gyration about the axis";
+        let why = "a file has hard limits, a scene fields: a fiftieth of the way from the start to the nearer limit before \
+                   each, it pushes as much as the weight of all that hangs on the joint, at its radius of gyration \
+                   about the axis";
         report.choose(None, "stop", why);
     }
     if report.is_sound() && !plan.is_finite() {

@@ -14,7 +14,7 @@ use std::path::Path;
 
 /// The mass of a link in its frame, and its geometry: what collides, else what is seen.
 pub(super) fn read(node: Node<'_, '_>, folder: &Path, report: &mut Report) -> (Option<MassProperties>, Vec<Part>) {
-    report.rest(node, Read { attributes: &["name", "type"], elements: &["inertial", "collision", "visual"], why });
+    report.rest(node, Read { attributes: &["name"], elements: &["inertial", "collision", "visual"], why });
     let mass = element(node, "inertial").and_then(|inertial| mass(inertial, report));
     let all = |tag: &'static str| elements(node).filter(move |child| child.tag_name().name() == tag);
     if all("inertial").count() > 1 {
@@ -65,7 +65,13 @@ fn part(node: Node<'_, '_>, folder: &Path, report: &mut Report) -> Option<Part> 
     let known = ["box", "sphere", "cylinder", "capsule", "mesh"];
     report.rest(geometry, Read { attributes: &[], elements: &known, why });
     let mut shapes = elements(geometry).filter(|child| known.contains(&child.tag_name().name()));
-    let shape = shapes.next()?;
+    let Some(shape) = shapes.next() else {
+        // A shape that is not known is listed already.
+        if elements(geometry).next().is_none() {
+            report.fault(geometry, format!("{} has no shape", named(geometry)), "write <box size=\"…\"/>, or another");
+        }
+        return None;
+    };
     for further in shapes {
         let what = format!("{}: a second shape, <{}>", named(geometry), further.tag_name().name());
         report.leave_out(further, what, "it has one, and the first is read");
@@ -77,7 +83,7 @@ fn part(node: Node<'_, '_>, folder: &Path, report: &mut Report) -> Option<Part> 
     let shape = match shape.tag_name().name() {
         "box" => {
             read(&["size"], report);
-            let size = tag.vector("size", report)?;
+            let size = if tag.is_given("size", report) { tag.vector("size", report) } else { None }?;
             tag.are_positive(size.as_slice(), report).then_some(PartShape::Box(Cuboid { size }))?
         }
         "sphere" => {
@@ -87,7 +93,7 @@ fn part(node: Node<'_, '_>, folder: &Path, report: &mut Report) -> Option<Part> 
         }
         "mesh" => {
             read(&["filename", "scale"], report);
-            let file = tag.text("filename")?;
+            let file = if tag.is_given("filename", report) { tag.text("filename") } else { None }?;
             let scale = tag.numbers::<3>("scale", report).unwrap_or([1.0; 3]);
             NamedMesh { file, folder, scale }.part(shape, report)?
         }

@@ -2,7 +2,7 @@
 
 use super::{Placed, Reporter};
 use crate::file::{Body, Copies as Written, CopyGrid, RandomCopies};
-use crate::key::Key;
+use crate::key::{Key, split_copy};
 use crate::places::{CopyPlace, MOST_COPIES, grid, read_places};
 use crate::quantity::si;
 use std::collections::BTreeMap;
@@ -121,13 +121,6 @@ impl CopyNames {
     pub(super) fn count(&self, name: &str) -> Option<usize> {
         self.0.get(name).map(Range::len)
     }
-}
-
-/// The body of which this would be the name of a copy, and its number.
-pub(crate) fn split_copy(name: &str) -> Option<(&str, usize)> {
-    let (of, number) = name.rsplit_once('-')?;
-    let number = number.parse().ok().filter(|parsed: &usize| parsed.to_string() == number)?;
-    Some((of, number))
 }
 
 /// Whether a body may have copies; notes why not.

@@ -16,7 +16,7 @@ mod signal_help;
 mod structure;
 mod values;
 
-pub(crate) use copies::{Copies, CopyNames, split_copy};
+pub(crate) use copies::{Copies, CopyNames};
 pub(crate) use joints::SPACE;
 pub(crate) use partial::PartialScene;
 pub(crate) use placed::Placed;

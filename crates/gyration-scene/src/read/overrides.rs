@@ -7,9 +7,8 @@
 
 use super::printed::Printed;
 use super::toml;
-use crate::check::split_copy;
 use crate::document::{Diagnostics, Document, NamedText};
-use crate::key::{Key, name_of};
+use crate::key::{Key, name_of, split_copy};
 use crate::overriding::{Override, OverrideValue};
 use crate::suggest;
 use crate::tree::{Entry, Node, Span, Table, Value};
