@@ -161,12 +161,12 @@ fn a_packet_whose_waves_all_run_forwards_keeps_its_middle_on_time() {
         name: "packet in a chain of masses, κ 0.1, w 25, its waves with frequencies of their own",
         source: "Σ_κ of C e^{i(kn − ω(κ)t)}, C e^{−n²/2w²} transformed, middle and width of C C*",
     };
-    // Waves of a ring of 300 about κ = 30/300 whose amplitudes are those of the packet, to 6.5 widths of 300/2πw.
-    let (cells, width) = (300_usize, 25.0);
+    // Waves of a ring of 200 about κ = 20/200 whose amplitudes are those of the packet, to 6.5 widths of 200/2πw.
+    let (cells, width) = (200_usize, 25.0);
     let spread = cells as f64 / (TAU * width);
-    let amplitude = |j: usize| 1e-6 * (-0.5 * ((j as f64 - 30.0) / spread).powi(2)).exp() / (spread * TAU.sqrt());
+    let amplitude = |j: usize| 1e-6 * (-0.5 * ((j as f64 - 20.0) / spread).powi(2)).exp() / (spread * TAU.sqrt());
     let kappa = |j: usize| j as f64 / cells as f64;
-    let waves = 18..43;
+    let waves = 12..29;
     let list = waves
         .clone()
         .map(|j| format!("{{ kappa = [{:?}, 0, 0], branch = 2, amplitude = {:?} }}", kappa(j), amplitude(j)));
@@ -179,7 +179,7 @@ fn a_packet_whose_waves_all_run_forwards_keeps_its_middle_on_time() {
     // |C_n|² about where the packet is expected, half of the ring to each side.
     let weights: Vec<(f64, f64)> = (0..cells)
         .map(|n| {
-            let place = 190.0 + n as f64;
+            let place = 240.0 + n as f64;
             let sum = found.iter().fold([0.0, 0.0], |[re, im], (j, [a, b])| {
                 let (sine, cosine) = (TAU * kappa(*j) * place).sin_cos();
                 [re + a * cosine - b * sine, im + a * sine + b * cosine]

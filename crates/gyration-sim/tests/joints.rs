@@ -110,6 +110,8 @@ fn an_isolated_linkage_keeps_its_momenta() {
 fn derivatives_of_an_arm_agree_with_differences_of_runs() {
     let keys = ["body.lower.density", "spring.0.stiffness", "contact.0.repulsion.alpha"];
     let quantities = ["lower.x", "lower.z", "block.P_xz", "ball.vz", "energy.kinetic", "joint.elbow.fz"];
-    let worst = disagreement(ARM, &strings(&TIGHT), &keys, &quantities, 1e-4);
+    // The block has met the table by then.
+    let overrides = [&strings(&TIGHT)[..], &["time.end=0.25".to_owned()]].concat();
+    let worst = disagreement(ARM, &overrides, &keys, &quantities, 1e-4);
     assert!(worst < 1e-5, "{worst:e}");
 }

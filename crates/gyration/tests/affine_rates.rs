@@ -54,7 +54,7 @@ fn state(model: &Model, numbers: &[f64]) -> State {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 8, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 4, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn jacobian_and_power_of_inclusions_are_those_of_their_rates(numbers in numbers(24), exponents in exponents()) {

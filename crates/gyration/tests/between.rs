@@ -199,7 +199,7 @@ fn blocks_of_meeting_bodies_without_inertia_are_derivatives_of_the_rates() {
     }
     let [repulsion, damping, friction, _] = laws([5.0, 4.0, 3.0, 2.0]).try_into().unwrap();
     let bound = bounded_law(friction, 0.2);
-    for laws in [vec![repulsion], vec![repulsion, damping, friction], vec![repulsion, damping, bound]] {
+    for laws in [vec![repulsion, damping, friction], vec![repulsion, damping, bound]] {
         let laws = Arc::new(PairLaws::new(AreaMeasure::DeformedArea, laws).unwrap());
         let all: Arc<[usize]> = (0..count).collect();
         let rule = PairRule { bodies: [all.clone(), all], supports: Arc::from([]), laws, reach: None };

@@ -48,7 +48,7 @@ fn strategy() -> impl Strategy<Value = ([f64; 10], [f64; 4])> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(12))]
 
     #[test]
     fn jacobian_and_power_of_spheres_that_the_fluid_remembers_are_those_of_their_rates(

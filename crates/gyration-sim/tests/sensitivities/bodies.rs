@@ -111,7 +111,7 @@ fn bodies_that_springs_join_agree_with_differences_of_runs() {
 
 /// A box and a soft ball, free but for each other.
 const MEETING: &str = r#"
-    time = { end = 0.4, sample = 0.1 }
+    time = { end = 0.25, sample = 0.05 }
     world = { gravity = [0, 0, 0] }
     [[contact]]
     between = ["a", "b"]
@@ -135,14 +135,7 @@ const MEETING: &str = r#"
 
 #[test]
 fn bodies_that_meet_agree_with_differences_of_runs() {
-    let keys = [
-        "contact.0.repulsion.alpha",
-        "contact.0.damping.beta",
-        "contact.0.friction.nu",
-        "body.a.velocity.0",
-        "body.b.position.1",
-        "body.a.shape.box.size.0",
-    ];
+    let keys = ["contact.0.repulsion.alpha", "contact.0.friction.nu", "body.a.velocity.0", "body.a.shape.box.size.0"];
     let quantities = ["a.x", "a.P_xy", "b.P_xy", "b.vz", "energy.kinetic", "work.damping", "work.friction"];
     let worst = disagreement(MEETING, &strings(&TIGHT), &keys, &quantities, 1e-4);
     // As of one body.
