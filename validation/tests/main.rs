@@ -15,6 +15,7 @@ mod case_complex_bands;
 mod case_contracting_box;
 mod case_contraction_modes;
 mod case_deforming_inclusion;
+mod case_driven_joints;
 mod case_gallery_dissipates;
 mod case_guides;
 mod case_joints;

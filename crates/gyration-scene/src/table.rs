@@ -53,6 +53,8 @@ impl TableFault {
 
 /// The entries of a tensor, row by row.
 const TENSOR: [&str; 9] = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
+/// A number has no entries.
+const NUMBER: [&str; 1] = [""];
 /// The components of a vector.
 const VECTOR: [&str; 3] = ["x", "y", "z"];
 
@@ -72,6 +74,14 @@ pub(crate) fn read_tensors(path: &Path, symbol: char, interpolation: Interpolati
 /// As of [`read_tensors`].
 pub(crate) fn read_vectors(path: &Path, symbol: char, interpolation: Interpolation) -> Result<TensorTable, TableFault> {
     read_table(path, symbol, &VECTOR, interpolation)
+}
+
+/// The same for a table of numbers, which are the first entries of its tensors.
+///
+/// # Errors
+/// As of [`read_tensors`].
+pub(crate) fn read_numbers(path: &Path, symbol: char, interpolation: Interpolation) -> Result<TensorTable, TableFault> {
+    read_table(path, symbol, &NUMBER, interpolation)
 }
 
 /// Where a row begins, behind the one before it, and what is wrong with it.
@@ -105,7 +115,11 @@ fn read_table(
     let content = content(&bytes);
     let rows = rows(content, entries.len()).map_err(|(start, reason)| {
         let line = line_of_row(content, start);
-        let names: Vec<String> = entries.iter().map(|entry| format!(", {symbol}_{entry}")).collect();
+        let names = entries.iter().map(|entry| match *entry {
+            "" => format!(", {symbol}"),
+            entry => format!(", {symbol}_{entry}"),
+        });
+        let names: Vec<String> = names.collect();
         TableFault::Malformed { columns: format!("`t{}`", names.concat()), path: path.to_owned(), line, reason }
     })?;
     TensorTable::new(rows.iter().map(|row| (row.time, row.value)).collect(), interpolation).map_err(|source| {
@@ -156,7 +170,7 @@ fn row(record: &csv::StringRecord, entries: usize) -> Result<(f64, Mat3), String
     }
     let value = match entries {
         9 => Mat3::from_row_slice(&numbers[1..]),
-        _ => Mat3::from_fn(|row, column| if column == 0 { numbers[1 + row] } else { 0.0 }),
+        _ => Mat3::from_fn(|row, column| if column == 0 && row < entries { numbers[1 + row] } else { 0.0 }),
     };
     Ok((numbers[0], value))
 }

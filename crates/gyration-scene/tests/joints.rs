@@ -67,16 +67,36 @@ fn what_cannot_be_joined_is_refused_with_the_fix() {
         ("drive = §{}".to_owned(), "drive", "no `torque`", "torque = 1"),
         ("drive = { torque = \"2*§speed\" }".to_owned(), "drive.torque", "speed", "Expressions"),
         (
-            "drive = { torque = §{ sine = { amplitude = \"2 N m\", frequency = 5, phase = \"90 deg\" } } }".to_owned(),
-            "drive.torque",
-            "found a table",
-            "\"2.0*sin(2*pi*5.0*t + 1.5707963267948966)\"",
+            "drive = { torque = { sum = [{ sine = { amplitude = §\"2 N\", frequency = 5 } }] } }".to_owned(),
+            "drive.torque.sum.0.sine.amplitude",
+            "is a torque",
+            "\"0.1 N m\"",
         ),
         (
-            "drive = { torque = §{ ramp = { to = 3, duration = \"2 s\" } } }".to_owned(),
+            "drive = { torque = { ramp = { to = 3, duration = 1 } }, constants = §{ k = 1 } }".to_owned(),
+            "drive.constants",
+            "a signal has no constants",
+            "leave them out",
+        ),
+        ("drive = { torque = { §sinus = 1 } }".to_owned(), "drive.torque.sinus", "unknown", "sine"),
+        (
+            "drive = { torque = { square = §{ amplitude = 3 } } }".to_owned(),
+            "drive.torque.square.frequency",
+            "missing",
+            "Hz",
+        ),
+        (
+            "drive = { torque = { table = { file = §\"q.csv\" } } }".to_owned(),
+            "drive.torque.table.file",
+            "cannot read the table",
+            "relative to the folder of the scene",
+        ),
+        ("drive = { torque = §[1, 0, 0] }".to_owned(), "drive.torque", "found an array", "an expression"),
+        (
+            "drive = { torque = §{ sine = { amplitude = 1e200, frequency = 1 } } }".to_owned(),
             "drive.torque",
-            "found a table",
-            "\"0.0 + (3.0)*min(t/2.0, 1)\"",
+            "leaves the range",
+            "smaller",
         ),
     ] {
         let hinge = format!("between = [\"a\", \"space\"]\nkind = \"hinge\"\naxis = [0, 1, 0]\n{lines}");
@@ -187,6 +207,28 @@ fn joint_at_a_pin_is_told_to_take_its_place() {
     let ball = "§[[joint]]\nname = \"j\"\nbetween = [\"a\", \"space\"]\nkind = \"ball\"\npoints = [[0, 0, 0.1], [0, \
         0, 0.1]]\n";
     assert_error(&format!("{TIME}{pinned}{ball}"), "joint.j", "3 of its 3 equations", "a pin holds a point already");
+}
+
+#[test]
+fn signals_of_a_drive_are_those_of_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("u.csv"), "t, u\n0, 1\n2, 5\n").unwrap();
+    let signal = |written: &str| {
+        let hinge = "between = [\"a\", \"space\"]\nkind = \"hinge\"\naxis = [0, 1, 0]";
+        let text = joint(&format!("{hinge}\ndrive = {{ torque = {written} }}"));
+        let scene = Scene::parse("scene.toml", &text, folder.path(), &[]).unwrap();
+        if !written.contains("table") {
+            assert_resolves_to_itself(&scene);
+        }
+        scene.built().model.joints()[0].motor.signal().unwrap().clone()
+    };
+    let at = |written: &str, time: f64| signal(written).at(time)[(0, 0)];
+    assert_eq!(at("{ constant = { value = \"30 N mm\" } }", 0.7), 0.03);
+    assert_eq!(at("{ sine = { amplitude = 2, frequency = 5, phase = \"90 deg\" } }", 0.0), 2.0);
+    assert_eq!(at("{ square = { amplitude = 2, frequency = 5 } }", 0.15), -2.0);
+    assert_eq!(at("{ ramp = { to = 3, duration = \"2 s\" } }", 0.5), 0.75);
+    assert_eq!(at("{ table = { file = \"u.csv\" } }", 0.5), 2.0);
+    assert_eq!(at("{ sum = [{ constant = { value = 1 } }, { ramp = { from = 2, to = 3, duration = 1 } }] }", 0.5), 3.5);
 }
 
 #[test]

@@ -12,6 +12,7 @@ mod context;
 mod contractile;
 mod convex;
 mod copies;
+mod drive_signal;
 mod fluid;
 mod guide;
 mod images;

@@ -1,13 +1,14 @@
 //! What acts along the free motion of a hinge or slider: limits with their stops, and drives.
 
 use super::context::SceneContext;
+use super::drive_signal::{drive_signal, numbers};
 use super::own::{accepted, constants};
 use crate::check::Reporter;
-use crate::file::{Entry, Joint, JointDrive};
+use crate::file::{DriveLaw, DriveSignal, Entry, Joint, JointDrive};
 use crate::key::Key;
 use crate::tree::Node;
 use crate::units::{UnitDimension, parse_quantity};
-use gyration::joint::{ANGLE_NAMES, JointKind, Motor, MotorFault, Stop, StopLaw, WAY_NAMES};
+use gyration::joint::{ANGLE_NAMES, Drive, JointKind, Motor, MotorFault, Stop, StopLaw, WAY_NAMES};
 use gyration_expression::{Expression, Scratch};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -53,7 +54,7 @@ impl WrittenMotor<'_> {
         }
         let stop = self.stop(reporter);
         let drive = match &value.drive {
-            Some(drive) => Some(Arc::new(self.drive(drive, context, reporter)?)),
+            Some(drive) => Some(self.drive(drive, context, reporter)?),
             None => None,
         };
         Some(Motor { drive, stop: stop? })
@@ -76,7 +77,7 @@ impl WrittenMotor<'_> {
             }
         };
         let place = key.key("limits");
-        let [way, push, resistance] = if *kind == JointKind::Hinge { &OF_HINGE } else { &OF_SLIDER };
+        let [way, push, resistance] = self.units();
         let of_stop = |law: &str, name: &str| key.key("stop").key(law).key(name);
         let written_as = [
             (place.index(0), way),
@@ -127,7 +128,7 @@ impl WrittenMotor<'_> {
         is_right
     }
 
-    fn drive(&self, drive: &JointDrive, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Expression> {
+    fn drive(&self, drive: &JointDrive, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Drive> {
         let key = self.key.key("drive");
         let is_hinge = self.kind == JointKind::Hinge;
         let (name, other, names) =
@@ -144,17 +145,44 @@ impl WrittenMotor<'_> {
         };
         let place = key.key(name);
         let text = match written {
-            Entry::Number(number) => format!("{number:?}"),
-            Entry::Expression(text) => text.to_string(),
+            DriveLaw::Feedback(Entry::Number(number)) => format!("{number:?}"),
+            DriveLaw::Feedback(Entry::Expression(text)) => text.to_string(),
+            DriveLaw::Signal(signal) => return self.signal(signal, &place, drive, context, reporter),
         };
         let constants = constants((key.key("constants"), drive.constants.as_ref()), context, &names, reporter)?;
         let read = Expression::parse(&text, &names, &constants).map(|expression| expression.holding(&[2]));
         let expression = accepted(read, (&place, &text), reporter)?;
-        let motor = Motor { drive: Some(Arc::new(expression.clone())), stop: None };
+        let law = Drive::Feedback(Arc::new(expression));
+        let motor = Motor { drive: Some(law.clone()), stop: None };
         if let Err(MotorFault::Undefined(undefined)) = motor.at([self.start, 0.0, 0.0], &mut Scratch::default()) {
             reporter.note(&place, undefined.to_string(), "write one that is defined and smooth at the start");
             return None;
         }
-        Some(expression)
+        Some(law)
+    }
+
+    /// A signal in the place of an expression.
+    fn signal(
+        &self,
+        written: &DriveSignal,
+        place: &Key,
+        drive: &JointDrive,
+        context: &SceneContext,
+        reporter: &mut Reporter<'_>,
+    ) -> Option<Drive> {
+        let [_, push, _] = self.units();
+        let wrong = numbers(written, place).iter().filter(|key| !self.is_of(key, push, reporter)).count();
+        if drive.constants.is_some() {
+            let key = self.key.key("drive").key("constants");
+            reporter.note(&key, "a signal has no constants: they are those of an expression", "leave them out");
+            return None;
+        }
+        let signal = drive_signal(written, place, context, reporter)?;
+        (wrong == 0).then(|| Drive::Signal(Arc::new(signal)))
+    }
+
+    /// What its coordinate, its push and its resistance are.
+    fn units(&self) -> &'static [Unit; 3] {
+        if self.kind == JointKind::Hinge { &OF_HINGE } else { &OF_SLIDER }
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! Read are the keywords that the file's types bring about: `$ref`, `type`, `properties`, `required`, `items`,
 //! `minItems`, `maxItems`, `oneOf` (words, tables with one key of several, or both), `anyOf` (one, or an array of them;
-//! an array, or a table), `minimum`, `maximum`, `exclusiveMinimum`, and the format's own `unit`, `expression` and
-//! `anyUnit`. A test makes sure that nothing else occurs.
+//! an array, or a number or expression, or a table), `minimum`, `maximum`, `exclusiveMinimum`, and the format's own
+//! `unit`, `expression` and `anyUnit`. A test makes sure that nothing else occurs.
 
 use crate::quantity::{ANY_UNIT, EXPRESSION, UNIT, WORDS};
 use crate::schema::SCHEMA;
@@ -43,7 +43,7 @@ pub(super) enum Rule {
     Array { item: Box<FieldRule>, least: usize, most: usize },
     /// One table or text of this kind, or an array of them.
     Several(Box<FieldRule>),
-    /// An array of the first kind, or a table of the second.
+    /// An array, or a number or expression, of the first kind, or a table of the second.
     Either(Box<FieldRule>, Box<FieldRule>),
     /// True or false.
     Boolean,
@@ -156,8 +156,10 @@ fn rule(schema: &Json) -> Rule {
         if matches {
             return Rule::Several(Box::new(field(one)));
         }
+        let is_shared = rule_name(one).is_some() && rule_name(many).is_some();
         return match text(one, "type") {
             Some("array") => Rule::Either(Box::new(field(one)), Box::new(field(many))),
+            None if is_shared => Rule::Either(Box::new(field(one)), Box::new(field(many))),
             _ => Rule::Unknown,
         };
     }

@@ -51,6 +51,11 @@ impl Walker<'_> {
             (Value::Text(_), Rule::Several(item)) if matches!(self.rules.resolve(&item.rule), Rule::Text) => {}
             (Value::Boolean(_), Rule::Several(item)) if matches!(self.rules.resolve(&item.rule), Rule::Boolean) => {}
             (Value::Array(_), Rule::Either(array, _)) => self.visit(node, key, array),
+            (Value::Number(_) | Value::Text(_), Rule::Either(entry, _))
+                if matches!(self.rules.resolve(&entry.rule), Rule::Expression) =>
+            {
+                self.visit(node, key, entry);
+            }
             (_, Rule::Either(_, other)) => self.visit(node, key, other),
             (Value::Array(items), Rule::Array { item, least, most }) => {
                 let count = items.len();

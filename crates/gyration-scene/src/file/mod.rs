@@ -32,6 +32,7 @@ pub use contact::{Adhesion, Contact, Damping, Friction, Measure, Reach, Repulsio
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
 pub use copies::{Copies, CopyCount, CopyGrid, RandomCopies};
 pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
+pub use joint::{DriveConstant, DriveLaw, DriveRamp, DriveSignal, DriveWave};
 pub use joint::{Joint, JointDrive, JointStop, JointWord, StopDamping, StopRepulsion};
 pub use keep::Keep;
 pub use lattice::{

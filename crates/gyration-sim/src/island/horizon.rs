@@ -172,9 +172,10 @@ fn before_meeting(approach: &Approach, (reach, radii): (f64, [f64; 2]), longest:
     approach.bent(approach.straight(nearest) - within).min(longest)
 }
 
-/// What drives bodies, and the flow around them.
+/// What drives bodies and joints, and the flow around them.
 fn signals(model: &Model) -> impl Iterator<Item = &Signal> {
     let drives = model.bodies.iter().filter_map(|body| Some(body.contraction()?.signal()));
+    let drives = drives.chain(model.joints().iter().filter_map(|joint| joint.motor.signal()));
     drives.chain(model.fluid.iter().flat_map(|fluid| fluid.signals()))
 }
 

@@ -20,7 +20,7 @@ mod row;
 
 pub use coordinate::{CoordinateAt, JointCoordinate};
 pub use graph::JointGraph;
-pub use motor::{ANGLE_NAMES, Motor, MotorAt, MotorFault, Stop, StopLaw, WAY_NAMES};
+pub use motor::{ANGLE_NAMES, Drive, Motor, MotorAt, MotorFault, Stop, StopLaw, WAY_NAMES};
 pub use row::{Jet, Row};
 
 use crate::load::{Anchor, Interaction, InteractionEnd, Loads, Mat12, Party};

@@ -3,9 +3,11 @@
 //!   F = u(x, ẋ, t) + α (d₋/d₀)^−ν − α (d₊/d₀)^−ν − β ((d₋/d₀)^−ν_d + (d₊/d₀)^−ν_d) ẋ
 //!   d₋ = x − x₋,   d₊ = x₊ − x,   V = α d₀ ((d₋/d₀)^(1−ν) + (d₊/d₀)^(1−ν))/(ν − 1)
 //!
-//! x is the angle [rad] or the way [m], F a torque [N m] or a force [N]. A stop pushes back into the allowed range
-//! only; its damping resists in both directions. At ν = 1 V is −α d₀ ln(d/d₀). Source: `docs/theory-rigid.md`.
+//! x is the angle [rad] or the way [m], F a torque [N m] or a force [N]; u may be a signal of time alone. A stop pushes
+//! back into the allowed range only; its damping resists in both directions. At ν = 1 V is −α d₀ ln(d/d₀). Source:
+//! `docs/theory-rigid.md`.
 
+use crate::signal::Signal;
 use gyration_expression::{Expression, Scratch, Undefined};
 use std::sync::Arc;
 
@@ -17,10 +19,19 @@ pub const WAY_NAMES: [&str; 3] = ["distance", "rate", "t"];
 /// A drive and stops; none of them if there are none.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Motor {
-    /// u, an expression of x, ẋ and t.
-    pub drive: Option<Arc<Expression>>,
+    /// u.
+    pub drive: Option<Drive>,
     /// What keeps x within limits.
     pub stop: Option<Stop>,
+}
+
+/// u \[N m\], \[N\].
+#[derive(Debug, Clone, PartialEq)]
+pub enum Drive {
+    /// An expression of x, ẋ and t.
+    Feedback(Arc<Expression>),
+    /// The first entry of a signal.
+    Signal(Arc<Signal>),
 }
 
 /// A field at both limits of a coordinate.
@@ -85,6 +96,14 @@ impl StopLaw {
 }
 
 impl Motor {
+    /// The signal that drives it, if one does.
+    pub fn signal(&self) -> Option<&Signal> {
+        match &self.drive {
+            Some(Drive::Signal(signal)) => Some(signal),
+            Some(Drive::Feedback(_)) | None => None,
+        }
+    }
+
     /// Whether anything acts.
     pub fn acts(&self) -> bool {
         self.drive.is_some() || self.stop.is_some()
@@ -103,7 +122,12 @@ impl Motor {
         let mut found = MotorAt::default();
         if let Some(drive) = &self.drive {
             let mut slopes = [0.0; 3];
-            let force = drive.gradient(&[value, rate, time], scratch, &mut slopes).map_err(MotorFault::Undefined)?;
+            let force = match drive {
+                Drive::Feedback(law) => {
+                    law.gradient(&[value, rate, time], scratch, &mut slopes).map_err(MotorFault::Undefined)?
+                }
+                Drive::Signal(signal) => signal.at(time)[(0, 0)],
+            };
             found.force += force;
             found.by_value += slopes[0];
             found.by_rate += slopes[1];
@@ -151,7 +175,7 @@ mod tests {
             damping: Some(StopLaw { coefficient: 0.3, exponent: 2.0, reference: 0.3 }),
         };
         let drive = Expression::parse("sin(3*t) - 2*angle*rate + angle^2", &ANGLE_NAMES, &[]).unwrap();
-        let motor = Motor { drive: Some(Arc::new(drive)), stop: Some(stop) };
+        let motor = Motor { drive: Some(Drive::Feedback(Arc::new(drive))), stop: Some(stop) };
         let mut scratch = Scratch::default();
         let mut at = |x: f64, v: f64| motor.at([x, v, 0.3], &mut scratch).unwrap();
         let (found, step) = (at(0.3, 0.8), 1e-6);

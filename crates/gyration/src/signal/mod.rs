@@ -1,4 +1,4 @@
-//! Tensors in time: what drives a contraction, what prescribes it, and the couples of a table.
+//! Tensors in time: what drives a contraction or a joint, what prescribes it, and the couples of a table.
 //!
 //!   constant A,   sine A sin(2πft + φ),   square A sgn sin(2πft + φ),   ramp from A to B in a time,   tables,   sums
 //!
