@@ -10,8 +10,8 @@ const INERTIA: f64 = 0.02;
 fn driven(signal: &str, end: f64) -> Experiment {
     let joint = |name: &str, kind: &str, what: &str| {
         format!(
-            "[[body]]\nname = \"{name}\"\nmass_properties = {{ mass = {INERTIA}, euler_tensor = [[{0:?}, 0, 0], [0, {0:?}, 0], \
-             [0, 0, {0:?}]] }}\n[[joint]]\nname = \"{name}-j\"\nbetween = [\"space\", \"{name}\"]\nkind = \"{kind}\"\n\
+            "[[body]]\nname = \"{name}\"\nmass_properties = {{ mass = {INERTIA}, \
+             euler_tensor = [[{0:?}, 0, 0], [0, {0:?}, 0], [0, 0, {0:?}]] }}\n[[joint]]\nname = \"{name}-j\"\nbetween = [\"space\", \"{name}\"]\nkind = \"{kind}\"\n\
              axis = [0, 1, 0]\ndrive = {{ {what} = {signal} }}\n",
             0.5 * INERTIA
         )

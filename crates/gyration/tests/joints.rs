@@ -4,7 +4,7 @@ use crate::between::{DIRECTED, assert_blocks_are_derivatives, bodies, joined, st
 use crate::moving::*;
 use gyration::body::{Body, BodyKind, RigidInertia};
 use gyration::dynamics::{Held, Workspace, acting};
-use gyration::joint::{ANGLE_NAMES, Joint, JointKind, Motor, Stop, StopLaw, WAY_NAMES, frame_about};
+use gyration::joint::{ANGLE_NAMES, Drive, Joint, JointKind, Motor, Stop, StopLaw, WAY_NAMES, frame_about};
 use gyration::kinematics::{Placement, Quaternion};
 use gyration::load::{Frame, Interaction, Party, SpringLaw};
 use gyration::model::Model;
@@ -127,7 +127,7 @@ fn motor(kind: JointKind) -> Motor {
     let drive = Expression::parse(&text, &names, &[]).unwrap();
     let law = |coefficient: f64, exponent: f64| StopLaw { coefficient, exponent, reference: 0.8 };
     let stop = Stop { limits: [-3.5, 3.7], repulsion: law(0.9, 3.0), damping: Some(law(0.4, 2.0)) };
-    Motor { drive: Some(Arc::new(drive)), stop: Some(stop) }
+    Motor { drive: Some(Drive::Feedback(Arc::new(drive))), stop: Some(stop) }
 }
 
 #[test]

@@ -157,8 +157,8 @@ pub(crate) fn plan(mut robot: Robot, is_base_fixed: bool, report: &mut Report) -
         });
     }
     if plan.joints.iter().any(|joint| joint.limits.is_some()) {
-        let why = "a file has hard limits, a scene fields: a fiftieth of the way from the start to the nearer limit before \
-                   each, it pushes as much as the weight of all that hangs on the joint, at its radius of gyration \
+        let why = "a file has hard limits, a scene fields: a fiftieth of the way from the start to the nearer limit \
+                   before each, it pushes as much as the weight of all that hangs on the joint, at its radius of gyration \
                    about the axis";
         report.choose(None, "stop", why);
     }
