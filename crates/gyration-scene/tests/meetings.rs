@@ -134,9 +134,15 @@ fn what_is_wrong_with_a_meeting_is_told_at_its_key() {
             "beta > 0",
         ),
         (
-            between(both, &format!("{REPULSION}\nmeasure = §\"deformed_area_potential\"")),
+            between(
+                both,
+                &format!(
+                    "{REPULSION}\nmeasure = §\"deformed_area_potential\"\n\
+                     adhesion = {{ beta = 1, nu_attractive = 3, nu_repulsive = 6 }}"
+                ),
+            ),
             "contact.0.measure",
-            "between bodies",
+            "no adhesion with such a measure",
             "reference_area",
         ),
         (

@@ -199,8 +199,12 @@ fn blocks_of_meeting_bodies_without_inertia_are_derivatives_of_the_rates() {
     }
     let [repulsion, damping, friction, _] = laws([5.0, 4.0, 3.0, 2.0]).try_into().unwrap();
     let bound = bounded_law(friction, 0.2);
-    for laws in [vec![repulsion, damping, friction], vec![repulsion, damping, bound]] {
-        let laws = Arc::new(PairLaws::new(AreaMeasure::DeformedArea, laws).unwrap());
+    for (measure, friction) in [
+        (AreaMeasure::DeformedArea, friction),
+        (AreaMeasure::DeformedArea, bound),
+        (AreaMeasure::DeformedAreaPotential, bound),
+    ] {
+        let laws = Arc::new(PairLaws::new(measure, vec![repulsion, damping, friction]).unwrap());
         let all: Arc<[usize]> = (0..count).collect();
         let rule = PairRule { bodies: [all.clone(), all], supports: Arc::from([]), laws, reach: None };
         let model = model.clone().with_bodies(bodies.clone()).meeting(vec![rule]);

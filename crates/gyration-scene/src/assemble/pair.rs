@@ -43,10 +43,10 @@ pub(super) fn laws(
                 "write an exponent of 2 or more",
             )
         }
-        PairLawsError::Measure => (
+        PairLawsError::TautAdhesion => (
             key.key("measure"),
-            "this version has no such measure between bodies".to_owned(),
-            "write \"deformed_area\" or \"reference_area\"",
+            "this version has no adhesion with such a measure between bodies".to_owned(),
+            "write \"deformed_area\" or \"reference_area\", or leave `adhesion` out",
         ),
     };
     reporter.note(&key, message, help);

@@ -44,6 +44,7 @@ pub use repulsion::Repulsion;
 pub use resultant::ContactLoads;
 pub use slopes::ContactSlopes;
 pub use tension::contact_potential;
+pub(crate) use tension::{TensionSlopes, across, symmetric, tension};
 pub use wrench::{ContactWrench, RigidLoads, RigidMotion};
 
 /// In which measure of area the tractions are given; on a rigid body all three are the same.

@@ -36,7 +36,8 @@ pub(super) struct Tension<'a> {
 }
 
 /// T and its derivative by H.
-pub(super) struct TensionSlopes {
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TensionSlopes {
     pub total: Mat3,
     /// By H_jl, at 3j + l.
     pub by_stretch: [Mat3; 9],
@@ -55,7 +56,7 @@ impl<'a> Tension<'a> {
         let Some((deformation, moments)) = oriented(laws, meeting, scratch)? else { return Ok(None) };
         let mut by_law = [Mat3::zeros(); LawKind::COUNT];
         for part in laws.potential_terms() {
-            by_law[part.kind as usize] += part.coefficient * across(&normals(&moments[part.request]));
+            by_law[part.kind as usize] += part.coefficient * tension(&moments[part.request]);
         }
         Ok(Some(Self { deformation, by_law }))
     }
@@ -74,18 +75,32 @@ impl TensionSlopes {
         scratch: &mut ContactScratch,
     ) -> Result<Option<Self>, GapClosed> {
         let Some((_, moments)) = oriented(laws, meeting, scratch)? else { return Ok(None) };
-        let mut this = Self { total: Mat3::zeros(), by_stretch: [Mat3::zeros(); 9] };
+        let mut this = Self::ZERO;
         for part in laws.potential_terms() {
-            let oriented = &moments[part.request];
-            let n = normals(oriented);
-            this.total += part.coefficient * across(&n);
-            for (place, slope) in this.by_stretch.iter_mut().enumerate() {
-                *slope += part.coefficient * slope_of(&n, oriented, place / 3, place % 3);
-            }
+            this.add_scaled(part.coefficient, &moments[part.request]);
         }
         Ok(Some(this))
     }
+
+    /// Of nothing.
+    pub const ZERO: Self = Self { total: NOTHING, by_stretch: [NOTHING; 9] };
+
+    /// Adds what a kernel with this coefficient brings, from its moments of order 0.
+    pub fn add_scaled(&mut self, coefficient: f64, oriented: &OrientedMoments) {
+        let n = normals(oriented);
+        self.total += coefficient * across(&n);
+        for (place, slope) in self.by_stretch.iter_mut().enumerate() {
+            *slope += coefficient * slope_of(&n, oriented, place / 3, place % 3);
+        }
+    }
 }
+
+#[rustfmt::skip]
+const NOTHING: Mat3 = Mat3::new(
+    0.0, 0.0, 0.0,
+    0.0, 0.0, 0.0,
+    0.0, 0.0, 0.0,
+);
 
 /// The moments of the potentials, weighted with normals; none in other measures than that of the potential.
 fn oriented<'a, 'b>(
@@ -105,12 +120,21 @@ fn oriented<'a, 'b>(
 
 /// ∫κ k m⊗m dA.
 fn normals(oriented: &OrientedMoments) -> Mat3 {
-    let [xx, xy, xz, yy, yz, zz] = oriented.pairs.map(|moments| moments.zeroth);
-    Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+    symmetric(&oriented.pairs.each_ref().map(|moments| moments.zeroth))
+}
+
+/// ∫κ k (I − m⊗m) dA of a kernel.
+pub(crate) fn tension(oriented: &OrientedMoments) -> Mat3 {
+    across(&normals(oriented))
+}
+
+/// From the components xx, xy, xz, yy, yz, zz.
+pub(crate) fn symmetric([xx, xy, xz, yy, yz, zz]: &[f64; 6]) -> Mat3 {
+    Mat3::new(*xx, *xy, *xz, *xy, *yy, *yz, *xz, *yz, *zz)
 }
 
 /// ∫κ k (I − m⊗m) dA from ∫κ k m⊗m dA.
-fn across(n: &Mat3) -> Mat3 {
+pub(crate) fn across(n: &Mat3) -> Mat3 {
     Mat3::from_diagonal_element(n.trace()) - n
 }
 

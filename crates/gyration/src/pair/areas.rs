@@ -67,6 +67,11 @@ impl AreaMoments {
         self.sides[side].get(place).map(|moments| &moments.pairs)
     }
 
+    /// All of one request of a side; none of a side whose areas do not change.
+    pub fn oriented(&self, side: usize, place: usize) -> Option<&OrientedMoments> {
+        self.sides[side].get(place)
+    }
+
     /// ∫κ X̃⊗X̃ dA of a request of a side, κ with this coefficient.
     pub fn joined(&self, side: usize, place: usize, coefficient: f64) -> Option<[Mat4; 6]> {
         let of = |moments: &Moments| coefficient * joined(moments.zeroth, &moments.first, &moments.second);

@@ -20,6 +20,8 @@ pub struct PairLaws {
     laws: Vec<ContactLaw>,
     /// Of d^(1−ν), d^−ν and d^−(ν+1).
     pub(super) placing: MomentPlan,
+    /// Of d^(1−ν) alone, where the measure has a tension.
+    pub(super) tightening: Option<MomentPlan>,
     /// Of d^−(ν+2), to third order.
     pub(super) bent: MomentPlan,
     pub(super) viscous: Vec<ViscousLaw>,
@@ -61,9 +63,9 @@ pub enum PairLawsError {
         /// ν < 2.
         exponent: f64,
     },
-    /// A measure that is not there between bodies.
-    #[error("no such measure between bodies")]
-    Measure,
+    /// Adhesion per deformed area with a potential.
+    #[error("no adhesion per deformed area with a potential between bodies")]
+    TautAdhesion,
 }
 
 /// The largest power that is taken by products, of as many halves of a rounding.
@@ -96,7 +98,8 @@ impl PairLaws {
     /// Joins the laws between two bodies.
     ///
     /// # Errors
-    /// [`PairLawsError`]: without repulsion and adhesion, with one of ν < 2, or per deformed area with a potential.
+    /// [`PairLawsError`]: without repulsion and adhesion, with one of ν < 2, or with an adhesion per deformed area that
+    /// has a potential.
     pub fn new(measure: AreaMeasure, laws: Vec<ContactLaw>) -> Result<Self, PairLawsError> {
         let (mut repelling, mut adhesion) = (None, None);
         let mut viscous = Vec::new();
@@ -131,9 +134,11 @@ impl PairLaws {
         if exponent < LEAST_EXPONENT {
             return Err(PairLawsError::TooWeak { kind: LawKind::Repulsion, exponent });
         }
-        if measure == AreaMeasure::DeformedAreaPotential {
-            return Err(PairLawsError::Measure);
+        let has_tension = measure == AreaMeasure::DeformedAreaPotential;
+        if has_tension && adhesion.is_some() {
+            return Err(PairLawsError::TautAdhesion);
         }
+        let energy = MomentRequest { kernel: Kernel::Power(exponent - 1.0), order: 0 };
         let mut placing = Vec::new();
         for (order, exponent) in [exponent - 1.0, exponent, exponent + 1.0].into_iter().enumerate() {
             request(&mut placing, exponent, order);
@@ -146,6 +151,7 @@ impl PairLaws {
             coefficient: repulsion.term().coefficient,
             laws,
             placing: MomentPlan::new(placing),
+            tightening: has_tension.then(|| MomentPlan::new(vec![energy])),
             bent: MomentPlan::new(vec![MomentRequest { kernel: Kernel::Power(exponent + 2.0), order: 3 }]),
             viscous,
             resisting: MomentPlan::new(values),

@@ -37,6 +37,7 @@
 //! | `mediator`    | damping and friction against the velocities of the plane        |
 //! | `mediator_slopes` | how these change with the places of both                    |
 //! | `areas`       | how moments change with the area factors of bodies that deform  |
+//! | `tension`     | what makes tractions per deformed area derive from a potential  |
 //! | `opening`     | damping that hardly pulls on what recedes                       |
 //! | `loads`       | forces, moments, energy and powers                               |
 //! | `slopes`      | their derivatives by the coordinates and velocities of both      |
@@ -67,6 +68,7 @@ mod reach;
 mod side;
 mod slopes;
 mod state;
+mod tension;
 
 pub use exchange::{PairGap, PairLoads, PairSlopes};
 pub use fault::PairFault;

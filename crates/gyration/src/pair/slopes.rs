@@ -13,6 +13,7 @@ use super::plane::Guess;
 use super::pulled_slopes::PulledSlopes;
 use super::side::Side;
 use super::state::{PairScratch, PairState, ViscousMoments};
+use super::tension::TensionChange;
 use crate::load::{COORDINATES, Mat12};
 use crate::tensor::{Mat3, Vec3, cross_matrix};
 
@@ -57,6 +58,7 @@ impl PairSlopes {
         state.add_adhesion(&mut on, &mut powers);
         let mut areas = std::mem::take(&mut scratch.areas);
         let placing = areas.placing(&pair.laws, halves, &state.placed.plane)?;
+        let tensions = TensionChange::of_placing(&pair.laws, &areas, &placing);
         let adhesion = match &state.pulled {
             Some(pulled) => {
                 Some(PulledSlopes::new(&pair.laws, pulled, halves, &expansion, (scratch.take(1), &mut areas))?)
@@ -68,7 +70,7 @@ impl PairSlopes {
             let direction = directions.next()?;
             let places = direction.places();
             let change = expansion.along(halves, places.each_ref(), state.placed.switch.bend, &placing);
-            let mut sum = [0, 1].map(|side| state.repulsion_along(side, &change));
+            let mut sum = [0, 1].map(|side| state.repulsion_along((side, &tensions[side]), &places[side], &change));
             if let Some(adhesion) = &adhesion {
                 let change = state.adhesion_along(adhesion, places.each_ref(), &change, &sum);
                 sum.iter_mut().zip(&change).for_each(|(sum, change)| *sum += change);
@@ -169,10 +171,13 @@ fn unit(coordinate: usize) -> Mat34 {
 }
 
 impl PairState<'_> {
-    /// The change of the repulsion on a side.
-    fn repulsion_along(&self, side: usize, change: &Change) -> Mat34 {
-        let (normal, first) = (&self.placed.plane.normal, &self.placed.first[side]);
+    /// The change of the repulsion on a side, with that of its tension.
+    fn repulsion_along(&self, (side, taut): (usize, &Option<TensionChange>), place: &Mat34, change: &Change) -> Mat34 {
+        let (normal, first, half) = (&self.placed.plane.normal, &self.placed.first[side], &self.halves[side]);
+        let weight = self.placed.weights[side];
         let pressed = (change.weights[side] * normal + change.normal) * first.transpose();
-        self.halves[side].sign * self.placed.weights[side] * (pressed + normal * change.first[side].transpose())
+        let pressed = half.sign * weight * (pressed + normal * change.first[side].transpose());
+        let Some((taut, tension)) = taut.as_ref().zip(self.tensions[side]) else { return pressed };
+        pressed + weight * (change.weights[side] * tension + taut.along(half, place, &change.heights[side]))
     }
 }

@@ -12,6 +12,7 @@ use super::placed::Placed;
 use super::plane::{Guess, Plane};
 use super::pulled::Pulled;
 use super::side::{Half, SIGNS, Side, columns};
+use super::tension::{Tensions, tensions};
 use super::{Mat34, Vec4};
 use crate::contact::AreaMeasure;
 use crate::surface::{AxialMoments, Moments};
@@ -41,6 +42,8 @@ pub(super) struct PairState<'a> {
     pub placed: Placed,
     /// The foot of the repulsion on the plane, from A's centre [m].
     pub foot: Vec3,
+    /// What areas that change bring to the moment, before it is weighted.
+    pub tensions: Tensions,
     /// Adhesion, where there is any within reach.
     pub pulled: Option<Pulled>,
 }
@@ -94,7 +97,7 @@ impl<'a> PairState<'a> {
         let halves = pair.halves(sides);
         let room = scratch.placing(pair);
         let placed = search(pair, halves.each_ref(), guess, room)?.placed(halves.each_ref());
-        Ok(Self::at(pair, halves, placed))
+        Self::at(pair, halves, placed, scratch)
     }
 
     /// Places the plane, and expands log U about it.
@@ -111,7 +114,7 @@ impl<'a> PairState<'a> {
         let room = scratch.placing(pair);
         let expansion = search(pair, halves.each_ref(), guess, room)?.confirmed(&pair.laws, halves.each_ref(), room);
         let placed = expansion.placed();
-        Ok((Self::at(pair, halves, placed), expansion))
+        Ok((Self::at(pair, halves, placed, scratch)?, expansion))
     }
 
     /// The same with adhesion, which needs the expansion.
@@ -133,19 +136,26 @@ impl<'a> PairState<'a> {
     }
 
     /// At a plane in balance.
-    fn at(pair: &'a PairForm, halves: [Half<'a>; 2], mut placed: Placed) -> Self {
+    fn at(
+        pair: &'a PairForm,
+        halves: [Half<'a>; 2],
+        mut placed: Placed,
+        scratch: &mut PairScratch,
+    ) -> Result<Self, PairFault> {
         placed.switch(pair.threshold);
         let first = &placed.first[0];
         let center = halves[0].columns * first / first[0];
         let plane = &placed.plane;
         let foot = center - (center.dot(&plane.normal) - plane.offset) * plane.normal;
-        Self { pair, halves, placed, foot, pulled: None }
+        let tensions = tensions(&pair.laws, halves.each_ref(), plane, &mut scratch.areas)?;
+        Ok(Self { pair, halves, placed, foot, tensions, pulled: None })
     }
 
     /// (f | M) of the repulsion on a side.
     pub fn repulsion(&self, side: usize) -> Mat34 {
         let Placed { plane, weights, first, .. } = &self.placed;
-        self.halves[side].sign * weights[side] * plane.normal * first[side].transpose()
+        let pressed = self.halves[side].sign * weights[side] * plane.normal * first[side].transpose();
+        self.tensions[side].map_or(pressed, |tension| pressed + weights[side] * tension)
     }
 
     /// Hands damping and friction to `each`, with the moments of both sides from which they are.

@@ -1,11 +1,10 @@
 //! Adhesion between bodies: its forces are the derivative of its energy though something else places the plane.
 
-use super::{Half, measured, noise, numbers, off, pairs, rotation, vector, within};
+use super::{Half, differences, fall, measured, noise, numbers, off, pairs, rotation, slopes, vector, within};
 use gyration::contact::{Adhesion, AreaMeasure, ContactLaw, Damping, Friction, LawKind, Repulsion};
 use gyration::load::Loads;
-use gyration::pair::{PairForm, PairLaws, PairLawsError, PairScratch, PairSlopes};
+use gyration::pair::{PairLaws, PairLawsError};
 use gyration::surface::Surface;
-use std::sync::Arc;
 
 fn adhesion(attractive: f64, repulsive: f64) -> ContactLaw {
     ContactLaw::Adhesion(Adhesion {
@@ -48,16 +47,7 @@ fn forces_are_the_derivative_of_the_energy() {
             let found = within(laws, reach, [&one, &other]);
             let step = 2e-4 * found.gap;
             for body in 0..2 {
-                let energy = |place: usize, by: f64| {
-                    let mut halves = [one.clone(), other.clone()];
-                    halves[body] = halves[body].shifted(place, by, false);
-                    within(laws, reach, halves.each_ref()).energy
-                };
-                let slope = |place: usize| {
-                    let central = |by: f64| (energy(place, by) - energy(place, -by)) / (2.0 * by);
-                    -(4.0 * central(step) - central(2.0 * step)) / 3.0
-                };
-                let wanted: Vec<f64> = (0..12).map(slope).collect();
+                let wanted = fall(laws, reach, [&one, &other], body, step);
                 // What pushes and what pulls may cancel.
                 let size = found.stored / found.gap;
                 let apart =
@@ -79,26 +69,12 @@ fn slopes_agree_with_differences() {
         let laws = &laws;
         let gap = within(laws, None, [&one, &other]).gap;
         let reach = [None, Some(20.0 * gap)][(k / 2) % 2];
-        let form = PairForm::new(Arc::new(laws.clone()), reach, [&one.surface, &other.surface]);
-        let sides = [one.side(&one), other.side(&one)];
-        let slopes = PairSlopes::integrate(&form, sides.each_ref(), None, &mut PairScratch::default()).unwrap();
+        let slopes = slopes(laws, reach, [&one, &other]);
         let at = within(laws, reach, [&one, &other]);
         assert!(off(&numbers(&slopes.loads.on[0]), &numbers(&at.on[0])) < 1e-11, "{name}");
         let step = 1e-4 * at.gap;
         for (acting, moved) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let shifted = |place: usize, by: f64| {
-                let mut halves = [one.clone(), other.clone()];
-                halves[moved] = halves[moved].shifted(place, by, false);
-                numbers(&within(laws, reach, halves.each_ref()).on[acting])
-            };
-            let column = |place: usize| {
-                let central = |by: f64| {
-                    let (up, down) = (shifted(place, by), shifted(place, -by));
-                    up.into_iter().zip(down).map(move |(up, down)| (up - down) / (2.0 * by))
-                };
-                central(step).zip(central(2.0 * step)).map(|(near, far)| (4.0 * near - far) / 3.0)
-            };
-            let wanted: Vec<f64> = (0..12).flat_map(column).collect();
+            let wanted = differences(laws, reach, [&one, &other], [acting, moved], (step, false));
             let error = off(slopes.by_place[acting][moved].as_slice(), &wanted);
             worst = worst.max(error);
             assert!(error < 1e-7, "{name}, on {acting} by {moved}: {error:e}");

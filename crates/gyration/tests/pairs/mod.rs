@@ -4,12 +4,13 @@
 mod adhesion;
 mod overlaps;
 mod relations;
+mod tension;
 mod values;
 
 use gyration::contact::{AreaMeasure, ContactLaw, Damping, Deformation, Friction, Repulsion};
 use gyration::kinematics::{Placement, Velocity};
 use gyration::load::Loads;
-use gyration::pair::{PairForm, PairLaws, PairLoads, PairScratch, Side};
+use gyration::pair::{PairForm, PairLaws, PairLoads, PairScratch, PairSlopes, Side};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3, axial};
 use std::sync::Arc;
@@ -153,6 +154,49 @@ fn loads(laws: &PairLaws, halves: [&Half; 2]) -> PairLoads {
 fn within(laws: &PairLaws, reach: Option<f64>, [one, other]: [&Half; 2]) -> PairLoads {
     let pair = pair(laws, reach, [one, other]);
     PairLoads::integrate(&pair, [&one.side(one), &other.side(one)], None, &mut PairScratch::default()).unwrap()
+}
+
+/// −∂(energy) by the twelve coordinates of a body, by differences of fourth order.
+fn fall(laws: &PairLaws, reach: Option<f64>, halves: [&Half; 2], body: usize, step: f64) -> Vec<f64> {
+    let energy = |place: usize, by: f64| {
+        let mut halves = halves.map(Half::clone);
+        halves[body] = halves[body].shifted(place, by, false);
+        within(laws, reach, halves.each_ref()).energy
+    };
+    let slope = |place: usize| {
+        let central = |by: f64| (energy(place, by) - energy(place, -by)) / (2.0 * by);
+        -(4.0 * central(step) - central(2.0 * step)) / 3.0
+    };
+    (0..12).map(slope).collect()
+}
+
+/// The derivatives of what acts on one body by the coordinates, or their rates, of one, by such differences; column by
+/// column.
+fn differences(
+    laws: &PairLaws,
+    reach: Option<f64>,
+    halves: [&Half; 2],
+    [acting, moved]: [usize; 2],
+    (step, rates): (f64, bool),
+) -> Vec<f64> {
+    let shifted = |place: usize, by: f64| {
+        let mut halves = halves.map(Half::clone);
+        halves[moved] = halves[moved].shifted(place, by, rates);
+        numbers(&within(laws, reach, halves.each_ref()).on[acting])
+    };
+    let column = |place: usize| {
+        let central = |by: f64| {
+            let (up, down) = (shifted(place, by), shifted(place, -by));
+            up.into_iter().zip(down).map(move |(up, down)| (up - down) / (2.0 * by))
+        };
+        central(step).zip(central(2.0 * step)).map(|(near, far)| (4.0 * near - far) / 3.0)
+    };
+    (0..12).flat_map(column).collect()
+}
+
+fn slopes(laws: &PairLaws, reach: Option<f64>, [one, other]: [&Half; 2]) -> PairSlopes {
+    let pair = pair(laws, reach, [one, other]);
+    PairSlopes::integrate(&pair, [&one.side(one), &other.side(one)], None, &mut PairScratch::default()).unwrap()
 }
 
 /// Every pair of shapes, some apart, some close.

@@ -1,6 +1,7 @@
 //! Relations that hold for every pair of bodies.
 
-use super::{Half, bounded_too, laws, loads, measured, noise, numbers, off, pair, pairs, rotation, vector, within};
+use super::{Half, bounded_too, differences, fall, laws, loads, measured, noise, numbers, off, pair, pairs, rotation};
+use super::{slopes, vector, within};
 use gyration::contact::LawKind;
 use gyration::kinematics::Placement;
 use gyration::load::Loads;
@@ -17,16 +18,7 @@ fn forces_are_the_derivative_of_the_potential() {
             let found = within(&laws, reach, [&one, &other]);
             let step = 2e-3 / exponent * found.gap;
             for body in 0..2 {
-                let energy = |place: usize, by: f64| {
-                    let mut halves = [one.clone(), other.clone()];
-                    halves[body] = halves[body].shifted(place, by, false);
-                    within(&laws, reach, halves.each_ref()).energy
-                };
-                let slope = |place: usize| {
-                    let central = |by: f64| (energy(place, by) - energy(place, -by)) / (2.0 * by);
-                    -(4.0 * central(step) - central(2.0 * step)) / 3.0
-                };
-                let wanted: Vec<f64> = (0..12).map(slope).collect();
+                let wanted = fall(&laws, reach, [&one, &other], body, step);
                 let error = off(&numbers(&found.on[body]), &wanted);
                 worst = worst.max(error);
                 // Fourth order: (ν step/gap)⁴ of truncation, and the error of the moments times gap/step.
@@ -48,14 +40,7 @@ fn slopes_agree_with_differences() {
         // Far beyond the gaps, a little beyond them, and none.
         let gap = loads(&laws, [&one, &other]).gap;
         let reach = [Some(100.0 * gap), Some(20.0 * gap), None][(k / 2) % 3];
-        let sides = [one.side(&one), other.side(&one)];
-        let slopes = PairSlopes::integrate(
-            &pair(&laws, reach, [&one, &other]),
-            sides.each_ref(),
-            None,
-            &mut PairScratch::default(),
-        )
-        .unwrap();
+        let slopes = slopes(&laws, reach, [&one, &other]);
         let at = within(&laws, reach, [&one, &other]);
         for body in 0..2 {
             let apart = off(&numbers(&slopes.loads.on[body]), &numbers(&at.on[body]));
@@ -68,19 +53,7 @@ fn slopes_agree_with_differences() {
         let by_rate = slopes.by_rate.unwrap();
         for (rates, found) in [(false, &slopes.by_place), (true, &by_rate)] {
             for (acting, moved) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                let shifted = |place: usize, by: f64| {
-                    let mut halves = [one.clone(), other.clone()];
-                    halves[moved] = halves[moved].shifted(place, by, rates);
-                    numbers(&within(&laws, reach, halves.each_ref()).on[acting])
-                };
-                let column = |place: usize| {
-                    let central = |by: f64| {
-                        let (up, down) = (shifted(place, by), shifted(place, -by));
-                        up.into_iter().zip(down).map(move |(up, down)| (up - down) / (2.0 * by))
-                    };
-                    central(step).zip(central(2.0 * step)).map(|(near, far)| (4.0 * near - far) / 3.0)
-                };
-                let wanted: Vec<f64> = (0..12).flat_map(column).collect();
+                let wanted = differences(&laws, reach, [&one, &other], [acting, moved], (step, rates));
                 let error = off(found[acting][moved].as_slice(), &wanted);
                 worst = worst.max(error);
                 assert!(error < 1e-8, "{name}, rates {rates}, on {acting} by {moved}: {error:e}");
