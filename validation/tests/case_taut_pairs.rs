@@ -1,5 +1,5 @@
-//! Soft bodies that meet in the measure with a tension: without loss their energy stays, and a body and its mirror image
-//! move as one of them on a plane, with half its d₀.
+//! Soft bodies that meet in the measure with a tension: without loss their energy stays, and a body and its mirror
+//! image move as one of them on a plane, with half its d₀.
 
 use gyration_validation::{Case, Experiment, Run, largest};
 
