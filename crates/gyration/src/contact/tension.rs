@@ -36,7 +36,7 @@ pub(super) struct Tension<'a> {
 }
 
 /// T and its derivative by H.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct TensionSlopes {
     pub total: Mat3,
     /// By H_jl, at 3j + l.
@@ -75,15 +75,12 @@ impl TensionSlopes {
         scratch: &mut ContactScratch,
     ) -> Result<Option<Self>, GapClosed> {
         let Some((_, moments)) = oriented(laws, meeting, scratch)? else { return Ok(None) };
-        let mut this = Self::ZERO;
+        let mut this = Self::default();
         for part in laws.potential_terms() {
             this.add_scaled(part.coefficient, &moments[part.request]);
         }
         Ok(Some(this))
     }
-
-    /// Of nothing.
-    pub const ZERO: Self = Self { total: NOTHING, by_stretch: [NOTHING; 9] };
 
     /// Adds what a kernel with this coefficient brings, from its moments of order 0.
     pub fn add_scaled(&mut self, coefficient: f64, oriented: &OrientedMoments) {
@@ -94,13 +91,6 @@ impl TensionSlopes {
         }
     }
 }
-
-#[rustfmt::skip]
-const NOTHING: Mat3 = Mat3::new(
-    0.0, 0.0, 0.0,
-    0.0, 0.0, 0.0,
-    0.0, 0.0, 0.0,
-);
 
 /// The moments of the potentials, weighted with normals; none in other measures than that of the potential.
 fn oriented<'a, 'b>(

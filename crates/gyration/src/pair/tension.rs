@@ -61,7 +61,7 @@ impl TensionChange {
         [0, 1].map(|side| {
             laws.tightening.as_ref()?;
             let (oriented, potentials) = (found.oriented(side, 0)?, placing[side].as_ref()?);
-            let mut own = TensionSlopes::ZERO;
+            let mut own = TensionSlopes::default();
             own.add_scaled(factor(laws), oriented);
             Some(Self { own, by_gap: potentials.each_ref().map(|potential| potential.first) })
         })

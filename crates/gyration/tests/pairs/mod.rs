@@ -7,7 +7,7 @@ mod relations;
 mod tension;
 mod values;
 
-use gyration::contact::{AreaMeasure, ContactLaw, Damping, Deformation, Friction, Repulsion};
+use gyration::contact::{AreaMeasure, ContactLaw, Damping, Deformation, Friction, LawKind, Repulsion};
 use gyration::kinematics::{Placement, Velocity};
 use gyration::load::Loads;
 use gyration::pair::{PairForm, PairLaws, PairLoads, PairScratch, PairSlopes, Side};
@@ -197,6 +197,55 @@ fn differences(
 fn slopes(laws: &PairLaws, reach: Option<f64>, [one, other]: [&Half; 2]) -> PairSlopes {
     let pair = pair(laws, reach, [one, other]);
     PairSlopes::integrate(&pair, [&one.side(one), &other.side(one)], None, &mut PairScratch::default()).unwrap()
+}
+
+/// How far the derivatives of both by the coordinates of both are from differences; the loads that come with them are
+/// those without.
+fn off_differences(laws: &PairLaws, reach: Option<f64>, halves: [&Half; 2], found: &PairSlopes) -> f64 {
+    let at = within(laws, reach, halves);
+    for body in 0..2 {
+        let apart = off(&numbers(&found.loads.on[body]), &numbers(&at.on[body]));
+        // Both planes are those of least potential to rounding, whose slopes the loads of motions feel in first order.
+        assert!(apart < 1e-11, "{apart:e}");
+    }
+    let apart = |[acting, moved]: [usize; 2]| {
+        let wanted = differences(laws, reach, halves, [acting, moved], (1e-4 * at.gap, false));
+        off(found.by_place[acting][moved].as_slice(), &wanted)
+    };
+    [[0, 0], [0, 1], [1, 0], [1, 1]].map(apart).into_iter().fold(0.0, f64::max)
+}
+
+/// Forces and torques are opposite, the power on both is what the laws book, and viscous ones take some.
+fn assert_balanced(name: &str, [one, other]: [&Half; 2], found: &PairLoads) {
+    let [above, below] = &found.on;
+    assert_eq!(above.force, -below.force, "{name}");
+    let torques = [one.torque(above), other.torque(below)];
+    // The places are some 4 m from the origin.
+    assert!((torques[0] + torques[1]).norm() < 1e-13 * 4.0 * above.force.norm(), "{name}");
+    let power: f64 = [(one, above), (other, below)]
+        .map(|(half, loads)| loads.power(&half.velocity.velocity, &half.velocity.gradient_rate))
+        .iter()
+        .sum();
+    let booked: f64 = found.powers.iter().sum();
+    assert!((power - booked).abs() < 1e-11 * above.force.norm(), "{name}: {power} and {booked}");
+    for kind in [LawKind::Damping, LawKind::Friction] {
+        assert!(found.powers[kind as usize] < 0.0, "{name}");
+    }
+}
+
+/// Names of the two do not matter, nor do axes.
+fn assert_turned_alike(name: &str, laws: &PairLaws, [one, other]: [&Half; 2], (turn, shift): (&Mat3, &Vec3)) {
+    let found = loads(laws, [one, other]);
+    let swapped = loads(laws, [other, one]);
+    let turned = loads(laws, [&one.turned(turn, shift), &other.turned(turn, shift)]);
+    for body in 0..2 {
+        let Loads { force, moment } = found.on[body];
+        let apart = off(&numbers(&swapped.on[1 - body]), &numbers(&found.on[body]));
+        assert!(apart < 1e-11, "{name}: {apart:e}");
+        let wanted = Loads { force: turn * force, moment: turn * moment };
+        let apart = off(&numbers(&turned.on[body]), &numbers(&wanted));
+        assert!(apart < 1e-11, "{name}: {apart:e}");
+    }
 }
 
 /// Every pair of shapes, some apart, some close.

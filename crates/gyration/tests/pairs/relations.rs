@@ -1,8 +1,7 @@
 //! Relations that hold for every pair of bodies.
 
-use super::{Half, bounded_too, differences, fall, laws, loads, measured, noise, numbers, off, pair, pairs, rotation};
-use super::{slopes, vector, within};
-use gyration::contact::LawKind;
+use super::{Half, assert_balanced, assert_turned_alike, bounded_too, differences, fall, laws, loads, measured, noise};
+use super::{numbers, off, off_differences, pair, pairs, rotation, slopes, vector, within};
 use gyration::kinematics::Placement;
 use gyration::load::Loads;
 use gyration::pair::{PairScratch, PairSlopes, Side};
@@ -41,23 +40,15 @@ fn slopes_agree_with_differences() {
         let gap = loads(&laws, [&one, &other]).gap;
         let reach = [Some(100.0 * gap), Some(20.0 * gap), None][(k / 2) % 3];
         let slopes = slopes(&laws, reach, [&one, &other]);
-        let at = within(&laws, reach, [&one, &other]);
-        for body in 0..2 {
-            let apart = off(&numbers(&slopes.loads.on[body]), &numbers(&at.on[body]));
-            println!("{name}: loads with derivatives are apart by {apart:.1e}");
-            // Both planes are those of least potential to rounding, whose slopes the loads of motions feel in first
-            // order.
-            assert!(apart < 1e-11, "{name}: {apart:e}");
-        }
-        let step = 1e-4 * at.gap;
-        let by_rate = slopes.by_rate.unwrap();
-        for (rates, found) in [(false, &slopes.by_place), (true, &by_rate)] {
-            for (acting, moved) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                let wanted = differences(&laws, reach, [&one, &other], [acting, moved], (step, rates));
-                let error = off(found[acting][moved].as_slice(), &wanted);
-                worst = worst.max(error);
-                assert!(error < 1e-8, "{name}, rates {rates}, on {acting} by {moved}: {error:e}");
-            }
+        let error = off_differences(&laws, reach, [&one, &other], &slopes);
+        worst = worst.max(error);
+        assert!(error < 1e-8, "{name}: {error:e}");
+        let (step, by_rate) = (1e-4 * slopes.loads.gap, slopes.by_rate.unwrap());
+        for [acting, moved] in [[0, 0], [0, 1], [1, 0], [1, 1]] {
+            let wanted = differences(&laws, reach, [&one, &other], [acting, moved], (step, true));
+            let error = off(by_rate[acting][moved].as_slice(), &wanted);
+            worst = worst.max(error);
+            assert!(error < 1e-8, "{name}, rates, on {acting} by {moved}: {error:e}");
         }
     }
     println!("worst difference {worst:.1e}");
@@ -67,21 +58,7 @@ fn slopes_agree_with_differences() {
 fn momenta_and_powers_balance() {
     for (name, one, other) in pairs() {
         for laws in bounded_too(&laws([6.0, 5.0, 4.0], true)) {
-            let found = loads(&laws, [&one, &other]);
-            let [above, below] = &found.on;
-            assert_eq!(above.force, -below.force, "{name}");
-            let torques = [one.torque(above), other.torque(below)];
-            // The places are some 4 m from the origin.
-            assert!((torques[0] + torques[1]).norm() < 1e-13 * 4.0 * above.force.norm(), "{name}");
-            let power: f64 = [(&one, above), (&other, below)]
-                .map(|(half, loads)| loads.power(&half.velocity.velocity, &half.velocity.gradient_rate))
-                .iter()
-                .sum();
-            let booked: f64 = found.powers.iter().sum();
-            assert!((power - booked).abs() < 1e-11 * above.force.norm(), "{name}: {power} and {booked}");
-            for kind in [LawKind::Damping, LawKind::Friction] {
-                assert!(found.powers[kind as usize] < 0.0, "{name}");
-            }
+            assert_balanced(&name, [&one, &other], &loads(&laws, [&one, &other]));
         }
     }
 }
@@ -92,17 +69,7 @@ fn names_and_axes_do_not_matter() {
     let (turn, shift) = (rotation(&mut next), vector(&mut next));
     for (name, one, other) in pairs() {
         for laws in bounded_too(&laws([6.0, 5.0, 4.0], true)) {
-            let found = loads(&laws, [&one, &other]);
-            let swapped = loads(&laws, [&other, &one]);
-            let turned = loads(&laws, [&one.turned(&turn, &shift), &other.turned(&turn, &shift)]);
-            for body in 0..2 {
-                let Loads { force, moment } = found.on[body];
-                let apart = off(&numbers(&swapped.on[1 - body]), &numbers(&found.on[body]));
-                assert!(apart < 1e-11, "{name}: {apart:e}");
-                let wanted = Loads { force: turn * force, moment: turn * moment };
-                let apart = off(&numbers(&turned.on[body]), &numbers(&wanted));
-                assert!(apart < 1e-11, "{name}: {apart:e}");
-            }
+            assert_turned_alike(&name, &laws, [&one, &other], (&turn, &shift));
         }
     }
 }

@@ -1,12 +1,10 @@
 //! The measure with a tension: what both feel, their stretching too, is the derivative of the potential.
 
-use super::{
-    Half, bounded_too, differences, fall, laws, loads, noise, numbers, off, pairs, rotation, slopes, vector, within,
-};
+use super::{Half, assert_balanced, assert_turned_alike, bounded_too, fall, laws, loads, noise, numbers, off};
+use super::{off_differences, pairs, rotation, slopes, vector, within};
 use gyration::contact::{AreaMeasure, ContactLaw, ContactLoads, ContactScratch, Deformation, LawKind, LawSet, Meeting};
 use gyration::contact::{RelativeMotion, Repulsion, contact_potential};
 use gyration::kinematics::{Placement, Velocity};
-use gyration::load::Loads;
 use gyration::pair::PairLaws;
 use gyration::surface::{GapField, Surface};
 use gyration::tensor::{Mat3, Vec3};
@@ -58,18 +56,9 @@ fn slopes_agree_with_differences() {
         let gap = loads(&laws, halves).gap;
         let reach = [Some(100.0 * gap), Some(20.0 * gap), None][(k / 2) % 3];
         let slopes = slopes(&laws, reach, halves);
-        let at = within(&laws, reach, halves);
-        for body in 0..2 {
-            let apart = off(&numbers(&slopes.loads.on[body]), &numbers(&at.on[body]));
-            // Both planes are those of least potential to rounding.
-            assert!(apart < 1e-11, "{name}: {apart:e}");
-        }
-        for (acting, moved) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let wanted = differences(&laws, reach, halves, [acting, moved], (1e-4 * at.gap, false));
-            let error = off(slopes.by_place[acting][moved].as_slice(), &wanted);
-            worst = worst.max(error);
-            assert!(error < 1e-8, "{name}, on {acting} by {moved}: {error:e}");
-        }
+        let error = off_differences(&laws, reach, halves, &slopes);
+        worst = worst.max(error);
+        assert!(error < 1e-8, "{name}: {error:e}");
     }
     println!("worst difference {worst:.1e}");
 }
@@ -96,18 +85,7 @@ fn momenta_and_powers_balance() {
         for laws in bounded_too(&laws([6.0, 5.0, 4.0], true)) {
             let laws = taut(&laws);
             let found = loads(&laws, [one, other]);
-            let [above, below] = &found.on;
-            assert_eq!(above.force, -below.force, "{name}");
-            let torques = [one.torque(above), other.torque(below)];
-            // The places are some 4 m from the origin.
-            assert!((torques[0] + torques[1]).norm() < 1e-13 * 4.0 * above.force.norm(), "{name}");
-            let power: f64 = [(one, above), (other, below)]
-                .map(|(half, loads)| loads.power(&half.velocity.velocity, &half.velocity.gradient_rate))
-                .iter()
-                .sum();
-            let booked: f64 = found.powers.iter().sum();
-            assert!((power - booked).abs() < 1e-11 * above.force.norm(), "{name}: {power} and {booked}");
-            assert!(found.powers[LawKind::Damping as usize] < 0.0 && found.powers[LawKind::Friction as usize] < 0.0);
+            assert_balanced(&name, [one, other], &found);
             // −dU/dt, of bodies that take their areas along.
             if !(one.swells && other.swells) {
                 continue;
@@ -126,7 +104,7 @@ fn momenta_and_powers_balance() {
             let falling = -(4.0 * central(step) - central(2.0 * step)) / 3.0;
             let repelled = found.powers[LawKind::Repulsion as usize];
             // Rounding of U over the step: 1e-16/1e-4 of U/gap, which is less than the force.
-            assert!((falling - repelled).abs() < 1e-8 * above.force.norm(), "{name}: {falling} and {repelled}");
+            assert!((falling - repelled).abs() < 1e-8 * found.on[0].force.norm(), "{name}: {falling} and {repelled}");
         }
     }
 }
@@ -136,19 +114,8 @@ fn names_and_axes_do_not_matter() {
     let mut next = noise(0.3);
     let (turn, shift) = (rotation(&mut next), vector(&mut next));
     for (_, name, halves) in swelling() {
-        let [one, other] = halves.each_ref();
         let laws = taut(&laws([6.0, 5.0, 4.0], true));
-        let found = loads(&laws, [one, other]);
-        let swapped = loads(&laws, [other, one]);
-        let turned = loads(&laws, [&one.turned(&turn, &shift), &other.turned(&turn, &shift)]);
-        for body in 0..2 {
-            let Loads { force, moment } = found.on[body];
-            let apart = off(&numbers(&swapped.on[1 - body]), &numbers(&found.on[body]));
-            assert!(apart < 1e-11, "{name}: {apart:e}");
-            let wanted = Loads { force: turn * force, moment: turn * moment };
-            let apart = off(&numbers(&turned.on[body]), &numbers(&wanted));
-            assert!(apart < 1e-11, "{name}: {apart:e}");
-        }
+        assert_turned_alike(&name, &laws, halves.each_ref(), (&turn, &shift));
     }
 }
 
