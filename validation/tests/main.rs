@@ -11,6 +11,7 @@ mod case_bands_weightless;
 mod case_bonds;
 mod case_bounded_friction;
 mod case_bounded_pairs;
+mod case_changing_flow;
 mod case_complex_bands;
 mod case_contracting_box;
 mod case_contraction_modes;

@@ -51,12 +51,12 @@ impl TableFault {
     }
 }
 
-/// The entries of a tensor, row by row.
-const TENSOR: [&str; 9] = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
-/// A number has no entries.
+/// What stands behind the symbol of a tensor for its entries, row by row.
+const TENSOR: [&str; 9] = ["_xx", "_xy", "_xz", "_yx", "_yy", "_yz", "_zx", "_zy", "_zz"];
+/// The same of the components of a vector.
+const VECTOR: [&str; 3] = ["_x", "_y", "_z"];
+/// The same of a number.
 const NUMBER: [&str; 1] = [""];
-/// The components of a vector.
-const VECTOR: [&str; 3] = ["x", "y", "z"];
 
 /// Reads a table of tensors in time: rows of t \[s\] and the entries in SI units, row by row. Messages call them by
 /// `symbol`.
@@ -115,11 +115,7 @@ fn read_table(
     let content = content(&bytes);
     let rows = rows(content, entries.len()).map_err(|(start, reason)| {
         let line = line_of_row(content, start);
-        let names = entries.iter().map(|entry| match *entry {
-            "" => format!(", {symbol}"),
-            entry => format!(", {symbol}_{entry}"),
-        });
-        let names: Vec<String> = names.collect();
+        let names: Vec<String> = entries.iter().map(|entry| format!(", {symbol}{entry}")).collect();
         TableFault::Malformed { columns: format!("`t{}`", names.concat()), path: path.to_owned(), line, reason }
     })?;
     TensorTable::new(rows.iter().map(|row| (row.time, row.value)).collect(), interpolation).map_err(|source| {

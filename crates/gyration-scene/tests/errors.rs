@@ -117,7 +117,12 @@ fn errors_of_fluids_stand_at_their_place() {
     let rows: &[(&str, &str, &str, &str)] = &[
         ("viscosity = §-1", "fluid.viscosity", "must be greater than 0 Pa s", "greater than 0"),
         ("viscosity = 1\ndensity = §-1", "fluid.density", "at least 0 kg/m^3", ""),
-        ("viscosity = 1\nvelocity = §1", "fluid.velocity", "found a number", "one key of constant, sine, sum, table"),
+        (
+            "viscosity = 1\nvelocity = §1",
+            "fluid.velocity",
+            "found a number",
+            "one key of constant, ramp, sine, square, sum, table",
+        ),
         ("viscosity = 1\nvelocity = [1, §\"2 m\", 0]", "fluid.velocity.1", "is in m, expected m/s", ""),
         ("viscosity = 1\nvelocity = { §sin = {} }", "fluid.velocity.sin", "unknown key", "`sine`"),
         (

@@ -127,22 +127,17 @@ fn initial(written: &file::Contractile, key: &Key, reporter: &mut Reporter<'_>) 
 }
 
 fn drive(
-    written: &file::Signal<Pressure>,
+    written: &file::Signal<file::Rows<Pressure>>,
     key: &Key,
     context: &SceneContext,
     reporter: &mut Reporter<'_>,
 ) -> Option<Signal> {
-    let signal = SignalBuilder { context, reporter, symbol: 'Q', rest: Mat3::zeros() }.signal(written, key)?;
-    let Some((time, message)) = first_fault(&signal, context.end.unwrap_or(0.0), not_finite) else {
-        return Some(signal);
-    };
-    reporter.note(key, format!("at t = {} s {message}", shown(time)), "write smaller numbers");
-    None
+    SignalBuilder { context, reporter, symbol: 'Q', rest: Mat3::zeros() }.bounded(written, key)
 }
 
 /// G in time, if it is a contraction throughout.
 fn prescribed(
-    written: &file::Signal<f64>,
+    written: &file::Signal<file::Rows<f64>>,
     key: &Key,
     context: &SceneContext,
     reporter: &mut Reporter<'_>,

@@ -3,28 +3,29 @@
 //! A velocity gradient of the undisturbed flow has trace zero at all times: nothing of the fluid is made or lost.
 
 use super::context::SceneContext;
-use super::signal::{SignalBuilder, first_fault, not_finite};
+use super::signal::{SignalBuilder, Value, first_fault, not_finite};
 use super::start::matrix;
 use crate::check::{Placed, Reporter};
-use crate::file::{Body, FlowGradient, FlowVelocity, Fluid as Written, Inclusion as WrittenInclusion, VectorSignal};
+use crate::file::{Body, Flow, Fluid as Written, Inclusion as WrittenInclusion, Rows};
 use crate::key::Key;
-use crate::quantity::si;
-use crate::table::read_vectors;
+use crate::quantity::{GradientRate, si};
 use crate::units::shown;
 use crate::unknown::{FIX, UnknownForm, no_surface};
 use gyration::body::{Body as Moving, BodyKind};
 use gyration::fluid::{FixedForm, Fluid, Form, History, Inclusion, Resolution};
 use gyration::mass::MassProperties;
 use gyration::shape::{Shape, Sphere};
-use gyration::signal::{Signal, Wave};
+use gyration::signal::Signal;
 use gyration::tensor::{Mat3, Vec3};
 
 /// The fluid of a scene; notes what is wrong with it.
 pub(super) fn fluid(written: &Written, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Fluid> {
     let key = Key::root().key("fluid");
     let velocity = match &written.velocity {
-        FlowVelocity::Steady(velocity) => Some(Signal::Constant(beside(&si(velocity)))),
-        FlowVelocity::Changing(signal) => vector_signal(signal, &key.key("velocity"), context, reporter),
+        Flow::Steady(velocity) => Some(Signal::Constant(velocity.tensor())),
+        Flow::Changing(signal) => {
+            SignalBuilder { context, reporter, symbol: 'U', rest: Mat3::zeros() }.bounded(signal, &key.key("velocity"))
+        }
     };
     let gradient = gradient(&written.velocity_gradient, &key.key("velocity_gradient"), context, reporter);
     Some(Fluid {
@@ -35,10 +36,15 @@ pub(super) fn fluid(written: &Written, context: &SceneContext, reporter: &mut Re
     })
 }
 
-fn gradient(written: &FlowGradient, key: &Key, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Signal> {
+fn gradient(
+    written: &Flow<Rows<GradientRate>>,
+    key: &Key,
+    context: &SceneContext,
+    reporter: &mut Reporter<'_>,
+) -> Option<Signal> {
     let signal = match written {
-        FlowGradient::Steady(rows) => Signal::Constant(matrix(rows)),
-        FlowGradient::Changing(signal) => {
+        Flow::Steady(rows) => Signal::Constant(rows.tensor()),
+        Flow::Changing(signal) => {
             SignalBuilder { context, reporter, symbol: 'L', rest: Mat3::zeros() }.signal(signal, key)?
         }
     };
@@ -63,44 +69,6 @@ fn swells(gradient: &Mat3) -> Option<String> {
             shown(trace)
         )
     })
-}
-
-/// A vector as the first column of a tensor, as which the flow keeps it.
-fn beside(vector: &Vec3) -> Mat3 {
-    Mat3::from_columns(&[*vector, Vec3::zeros(), Vec3::zeros()])
-}
-
-fn vector_signal(
-    written: &VectorSignal,
-    key: &Key,
-    context: &SceneContext,
-    reporter: &mut Reporter<'_>,
-) -> Option<Signal> {
-    let signal = match written {
-        VectorSignal::Constant(constant) => Signal::Constant(beside(&si(&constant.value))),
-        VectorSignal::Sine(wave) => Signal::Sine(Wave {
-            amplitude: beside(&si(&wave.amplitude)),
-            frequency: wave.frequency.value(),
-            phase: wave.phase.0,
-        }),
-        VectorSignal::Table(table) => {
-            let mut maker = SignalBuilder { context, reporter, symbol: 'U', rest: Mat3::zeros() };
-            Signal::Table(maker.table(table, &key.key("table").key("file"), read_vectors)?)
-        }
-        VectorSignal::Sum(parts) => {
-            let key = key.key("sum");
-            let parts =
-                parts.iter().enumerate().map(|(index, part)| vector_signal(part, &key.index(index), context, reporter));
-            // All of them, so that each is checked.
-            let parts: Vec<Option<Signal>> = parts.collect();
-            Signal::Sum(parts.into_iter().collect::<Option<_>>()?)
-        }
-    };
-    let Some((time, message)) = first_fault(&signal, context.end.unwrap_or(0.0), not_finite) else {
-        return Some(signal);
-    };
-    reporter.note(key, format!("at t = {} s {message}", shown(time)), "write smaller numbers");
-    None
 }
 
 /// The error of a history unless the file gives one.

@@ -12,7 +12,6 @@ mod context;
 mod contractile;
 mod convex;
 mod copies;
-mod drive_signal;
 mod fluid;
 mod guide;
 mod images;

@@ -1,14 +1,16 @@
 //! What acts along the free motion of a hinge or slider: limits with their stops, and drives.
 
 use super::context::SceneContext;
-use super::drive_signal::{drive_signal, numbers};
 use super::own::{accepted, constants};
+use super::signal::SignalBuilder;
 use crate::check::Reporter;
-use crate::file::{DriveLaw, DriveSignal, Entry, Joint, JointDrive};
+use crate::file::{DriveLaw, Entry, Joint, JointDrive, Signal};
 use crate::key::Key;
+use crate::quantity::AnyQuantity;
 use crate::tree::Node;
 use crate::units::{UnitDimension, parse_quantity};
 use gyration::joint::{ANGLE_NAMES, Drive, JointKind, Motor, MotorFault, Stop, StopLaw, WAY_NAMES};
+use gyration::tensor::Mat3;
 use gyration_expression::{Expression, Scratch};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -164,7 +166,7 @@ impl WrittenMotor<'_> {
     /// A signal in the place of an expression.
     fn signal(
         &self,
-        written: &DriveSignal,
+        written: &Signal<AnyQuantity>,
         place: &Key,
         drive: &JointDrive,
         context: &SceneContext,
@@ -177,7 +179,7 @@ impl WrittenMotor<'_> {
             reporter.note(&key, "a signal has no constants: they are those of an expression", "leave them out");
             return None;
         }
-        let signal = drive_signal(written, place, context, reporter)?;
+        let signal = SignalBuilder { context, reporter, symbol: 'u', rest: Mat3::zeros() }.bounded(written, place)?;
         (wrong == 0).then(|| Drive::Signal(Arc::new(signal)))
     }
 
@@ -185,4 +187,20 @@ impl WrittenMotor<'_> {
     fn units(&self) -> &'static [Unit; 3] {
         if self.kind == JointKind::Hinge { &OF_HINGE } else { &OF_SLIDER }
     }
+}
+
+/// Where the torques or forces of a signal are written.
+fn numbers(written: &Signal<AnyQuantity>, key: &Key) -> Vec<Key> {
+    let (word, names): (&str, &[&str]) = match written {
+        Signal::Constant(_) => ("constant", &["value"]),
+        Signal::Sine(_) => ("sine", &["amplitude"]),
+        Signal::Square(_) => ("square", &["amplitude"]),
+        Signal::Ramp(_) => ("ramp", &["from", "to"]),
+        Signal::Table(_) => return Vec::new(),
+        Signal::Sum(parts) => {
+            let key = key.key("sum");
+            return parts.iter().enumerate().flat_map(|(index, part)| numbers(part, &key.index(index))).collect();
+        }
+    };
+    names.iter().map(|name| key.key(word).key(name)).collect()
 }

@@ -73,7 +73,7 @@ fn contracts(written: &mut Contractile, contraction: &Mat3) {
     }
 }
 
-fn start_ramps<T: Copy>(signal: &mut Signal<T>, rest: [[T; 3]; 3]) {
+fn start_ramps<V: Copy>(signal: &mut Signal<V>, rest: V) {
     match signal {
         Signal::Ramp(ramp) => {
             ramp.from.get_or_insert(rest);

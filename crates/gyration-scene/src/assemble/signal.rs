@@ -1,4 +1,4 @@
-//! Tensors in time: from what the file calls them to signals, and what they are over a whole run.
+//! Values in time: from what the file calls them to signals of tensors, and what they are over a whole run.
 //!
 //! Between 0 and the end of the run a signal is looked at 64 times in the whole and in each period of its fastest wave,
 //! and 8 times between neighbours among the times of its tables and the ends of its ramps.
@@ -6,18 +6,54 @@
 use super::context::SceneContext;
 use super::start::matrix;
 use crate::check::Reporter;
-use crate::file::{Interpolation as Written, Ramp, Signal as WrittenSignal, Table, Wave as WrittenWave};
+use crate::file::{Interpolation as Written, Ramp, Rows, Signal as WrittenSignal, Table, Wave as WrittenWave};
 use crate::key::Key;
-use crate::table::{TableFault, read_tensors};
+use crate::quantity::{AnyQuantity, Velocity, si};
+use crate::table::{TableFault, read_numbers, read_tensors, read_vectors};
 use crate::units::shown;
 use gyration::signal::{Interpolation, Signal, TensorTable, Wave};
-use gyration::tensor::Mat3;
+use gyration::tensor::{Mat3, Vec3};
 use std::path::Path;
 
 /// Reads a table: its path, what messages call its tensors, what it does between its times.
 pub(super) type Reader = fn(&Path, char, Interpolation) -> Result<TensorTable, TableFault>;
 
-/// Makes signals of one kind of tensor.
+/// What a signal of the file is at a time.
+pub(super) trait Value {
+    /// Reads a table of such.
+    const READ: Reader;
+
+    /// The tensor as which a signal keeps it.
+    fn tensor(&self) -> Mat3;
+}
+
+impl<T: Into<f64> + Copy> Value for Rows<T> {
+    const READ: Reader = read_tensors;
+
+    fn tensor(&self) -> Mat3 {
+        matrix(self)
+    }
+}
+
+/// A vector is the first column.
+impl Value for [Velocity; 3] {
+    const READ: Reader = read_vectors;
+
+    fn tensor(&self) -> Mat3 {
+        Mat3::from_columns(&[si(self), Vec3::zeros(), Vec3::zeros()])
+    }
+}
+
+/// A number is the first entry.
+impl Value for AnyQuantity {
+    const READ: Reader = read_numbers;
+
+    fn tensor(&self) -> Mat3 {
+        Mat3::from_columns(&[Vec3::x() * self.0, Vec3::zeros(), Vec3::zeros()])
+    }
+}
+
+/// Makes signals of one kind of value.
 pub(super) struct SignalBuilder<'a, 'b> {
     pub(super) context: &'a SceneContext<'a>,
     pub(super) reporter: &'a mut Reporter<'b>,
@@ -29,25 +65,27 @@ pub(super) struct SignalBuilder<'a, 'b> {
 
 impl SignalBuilder<'_, '_> {
     /// The signal at a key; notes what is wrong with any part of it.
-    pub(super) fn signal<T: Into<f64> + Copy>(&mut self, written: &WrittenSignal<T>, key: &Key) -> Option<Signal> {
+    pub(super) fn signal<V: Value>(&mut self, written: &WrittenSignal<V>, key: &Key) -> Option<Signal> {
         self.part(written, key, Some(self.rest))
     }
 
+    /// The same of one that stays within the range of numbers over the whole run.
+    pub(super) fn bounded<V: Value>(&mut self, written: &WrittenSignal<V>, key: &Key) -> Option<Signal> {
+        let signal = self.signal(written, key)?;
+        let fault = first_fault(&signal, self.context.end.unwrap_or(0.0), not_finite);
+        let Some((time, message)) = fault else { return Some(signal) };
+        self.reporter.note(key, format!("at t = {} s {message}", shown(time)), "write smaller numbers");
+        None
+    }
+
     /// A signal or a part of a sum; `rest` is where a ramp starts that does not say so, if that is clear.
-    fn part<T: Into<f64> + Copy>(
-        &mut self,
-        written: &WrittenSignal<T>,
-        key: &Key,
-        rest: Option<Mat3>,
-    ) -> Option<Signal> {
+    fn part<V: Value>(&mut self, written: &WrittenSignal<V>, key: &Key, rest: Option<Mat3>) -> Option<Signal> {
         Some(match written {
-            WrittenSignal::Constant(constant) => Signal::Constant(matrix(&constant.value)),
+            WrittenSignal::Constant(constant) => Signal::Constant(constant.value.tensor()),
             WrittenSignal::Sine(it) => Signal::Sine(wave(it)),
             WrittenSignal::Square(it) => Signal::Square(wave(it)),
             WrittenSignal::Ramp(ramp) => self.ramp(ramp, &key.key("ramp"), rest)?,
-            WrittenSignal::Table(table) => {
-                Signal::Table(self.table(table, &key.key("table").key("file"), read_tensors)?)
-            }
+            WrittenSignal::Table(table) => Signal::Table(self.table(table, &key.key("table").key("file"), V::READ)?),
             WrittenSignal::Sum(parts) => {
                 // What is not zero would be added as often as there are ramps.
                 let (key, rest) = (key.key("sum"), rest.filter(|rest| *rest == Mat3::zeros()));
@@ -59,17 +97,17 @@ impl SignalBuilder<'_, '_> {
         })
     }
 
-    fn ramp<T: Into<f64> + Copy>(&mut self, ramp: &Ramp<T>, key: &Key, rest: Option<Mat3>) -> Option<Signal> {
-        let Some(from) = ramp.from.as_ref().map(matrix).or(rest) else {
+    fn ramp<V: Value>(&mut self, ramp: &Ramp<V>, key: &Key, rest: Option<Mat3>) -> Option<Signal> {
+        let Some(from) = ramp.from.as_ref().map(V::tensor).or(rest) else {
             let help = "add `from`: [[0, 0, 0], [0, 0, 0], [0, 0, 0]] if another part of the sum is where it starts";
             self.reporter.note(&key.key("from"), "within a sum it is open where the ramp starts", help);
             return None;
         };
-        Some(Signal::Ramp { from, to: matrix(&ramp.to), duration: ramp.duration.value() })
+        Some(Signal::Ramp { from, to: ramp.to.tensor(), duration: ramp.duration.value() })
     }
 
     /// The table of a file, read by `read`; notes what is wrong with it.
-    pub(super) fn table(&mut self, table: &Table, key: &Key, read: Reader) -> Option<TensorTable> {
+    fn table(&mut self, table: &Table, key: &Key, read: Reader) -> Option<TensorTable> {
         let interpolation = match table.interpolation {
             Written::Linear => Interpolation::Linear,
             Written::Cubic => Interpolation::Cubic,
@@ -96,8 +134,8 @@ impl SignalBuilder<'_, '_> {
     }
 }
 
-fn wave<T: Into<f64> + Copy>(written: &WrittenWave<T>) -> Wave {
-    Wave { amplitude: matrix(&written.amplitude), frequency: written.frequency.value(), phase: written.phase.0 }
+fn wave<V: Value>(written: &WrittenWave<V>) -> Wave {
+    Wave { amplitude: written.amplitude.tensor(), frequency: written.frequency.value(), phase: written.phase.0 }
 }
 
 /// The first time from 0 to `end`, of those at which a signal is looked at, where there is something wrong with it.

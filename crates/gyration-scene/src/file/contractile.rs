@@ -3,7 +3,7 @@
 //! F is elastic, G is the contraction: μ_γ Ġ G⁻¹ = Fᵀ S Gᵀ − det G φ I + Q. All keys of `affine` apply, the material
 //! being one of F. Q is a `drive` in time, or `feedback`, or both; instead of it G may be `prescribed`.
 
-use super::{Affine, Signal};
+use super::{Affine, Rows, Signal};
 use crate::quantity::{Positive, Pressure, Viscosity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,10 +31,10 @@ pub struct Contractile {
     pub spin: Option<Spin>,
     /// The drive Q in time (Pa).
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub drive: Option<Signal<Pressure>>,
+    pub drive: Option<Signal<Rows<Pressure>>>,
     /// The contraction G in time, instead of a drive.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub prescribed: Option<Signal<f64>>,
+    pub prescribed: Option<Signal<Rows<f64>>>,
     /// Drives that answer to what the body feels, one or several.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub feedback: Option<OneOrMany<Feedback>>,

@@ -1,7 +1,7 @@
 //! `[fluid]`: the viscous fluid around the bodies, and what a body in it says.
 
-use super::{Signal, Table};
-use crate::quantity::{Angle, Density, Frequency, GradientRate, NonNegative, Positive, Velocity, Viscosity};
+use super::{Rows, Signal};
+use crate::quantity::{Density, GradientRate, NonNegative, Positive, Velocity, Viscosity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -16,77 +16,27 @@ pub struct Fluid {
     pub density: NonNegative<Density>,
     /// Velocity of the undisturbed flow at the origin (m/s): three numbers, or in time.
     #[serde(default)]
-    pub velocity: FlowVelocity,
+    pub velocity: Flow<[Velocity; 3]>,
     /// Velocity gradient of the undisturbed flow (1/s), of trace zero: rows, or in time.
     #[serde(default)]
-    pub velocity_gradient: FlowGradient,
+    pub velocity_gradient: Flow<Rows<GradientRate>>,
 }
 
-/// A velocity, steady or in time.
+/// A value of the flow, steady or in time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "FlowOf{V}")]
 #[serde(untagged)]
-pub enum FlowVelocity {
+pub enum Flow<V> {
     /// The same at all times.
-    Steady([Velocity; 3]),
+    Steady(V),
     /// In time.
-    Changing(VectorSignal),
+    Changing(Signal<V>),
 }
 
-/// A velocity gradient, steady or in time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum FlowGradient {
-    /// The same at all times.
-    Steady([[GradientRate; 3]; 3]),
-    /// In time.
-    Changing(Signal<GradientRate>),
-}
-
-impl Default for FlowVelocity {
+impl<V: Default> Default for Flow<V> {
     fn default() -> Self {
-        Self::Steady(Default::default())
+        Self::Steady(V::default())
     }
-}
-
-impl Default for FlowGradient {
-    fn default() -> Self {
-        Self::Steady(Default::default())
-    }
-}
-
-/// A velocity in time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum VectorSignal {
-    /// The same at all times.
-    Constant(ConstantVector),
-    /// amplitude · sin(2π·frequency·t + phase).
-    Sine(VectorWave),
-    /// Read from a file: rows of t (s) and three numbers in SI units.
-    Table(Table),
-    /// All of these added.
-    Sum(#[schemars(length(min = 1))] Vec<VectorSignal>),
-}
-
-/// A velocity that does not change.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ConstantVector {
-    /// It (m/s).
-    pub value: [Velocity; 3],
-}
-
-/// A velocity that repeats itself.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct VectorWave {
-    /// At the highest (m/s).
-    pub amplitude: [Velocity; 3],
-    /// Frequency (Hz).
-    pub frequency: NonNegative<Frequency>,
-    /// Phase (rad).
-    #[serde(default)]
-    pub phase: Angle,
 }
 
 /// What makes a body feel the fluid.

@@ -1,8 +1,8 @@
 //! `[[joint]]`: exact constraints between two bodies, or a body and a support or space.
 
 use super::affine::Entry;
-use super::signal::Table;
-use crate::quantity::{Angle, AnyQuantity, Duration, Frequency, Length, NonNegative, Positive};
+use super::signal::Signal;
+use crate::quantity::{AnyQuantity, Length, NonNegative, Positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -96,64 +96,8 @@ pub struct JointDrive {
 pub enum DriveLaw {
     /// A number, or an expression.
     Feedback(Entry),
-    /// In time.
-    Signal(DriveSignal),
-}
-
-/// A torque (N m) or force (N) in time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum DriveSignal {
-    /// The same at all times.
-    Constant(DriveConstant),
-    /// amplitude · sin(2π·frequency·t + phase).
-    Sine(DriveWave),
-    /// amplitude where that sine is above zero, −amplitude where it is below.
-    Square(DriveWave),
-    /// Linear in time from one value to another, which then stays.
-    Ramp(DriveRamp),
-    /// Read from a file: rows of t (s) and the torque (N m) or force (N).
-    Table(Table),
-    /// All of these added.
-    Sum(#[schemars(length(min = 1))] Vec<DriveSignal>),
-}
-
-/// A torque or force that does not change.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct DriveConstant {
-    /// It (N m), (N).
-    pub value: AnyQuantity,
-}
-
-/// A torque or force that repeats itself.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct DriveWave {
-    /// At the highest (N m), (N).
-    pub amplitude: AnyQuantity,
-    /// Frequency (Hz).
-    pub frequency: NonNegative<Frequency>,
-    /// Phase (rad).
-    #[serde(default)]
-    pub phase: Angle,
-}
-
-/// A torque or force that changes steadily for a while, from t = 0 on.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct DriveRamp {
-    /// At t = 0 (N m), (N).
-    #[serde(default = "zero")]
-    pub from: AnyQuantity,
-    /// From t = duration on (N m), (N).
-    pub to: AnyQuantity,
-    /// How long it takes (s).
-    pub duration: Positive<Duration>,
-}
-
-fn zero() -> AnyQuantity {
-    AnyQuantity(0.0)
+    /// A torque (N m) or force (N) in time.
+    Signal(Signal<AnyQuantity>),
 }
 
 /// How a joint joins two bodies.

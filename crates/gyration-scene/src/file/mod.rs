@@ -31,9 +31,8 @@ pub use bond::{Bond, BondDamping};
 pub use contact::{Adhesion, Contact, Damping, Friction, Measure, Reach, Repulsion};
 pub use contractile::{Contractile, Feedback, FeltMeasure, OneOrMany, Spin};
 pub use copies::{Copies, CopyCount, CopyGrid, RandomCopies};
-pub use fluid::{ConstantVector, FlowGradient, FlowVelocity, Fluid, Inclusion, VectorSignal, VectorWave};
-pub use joint::{DriveConstant, DriveLaw, DriveRamp, DriveSignal, DriveWave};
-pub use joint::{Joint, JointDrive, JointStop, JointWord, StopDamping, StopRepulsion};
+pub use fluid::{Flow, Fluid, Inclusion};
+pub use joint::{DriveLaw, Joint, JointDrive, JointStop, JointWord, StopDamping, StopRepulsion};
 pub use keep::Keep;
 pub use lattice::{
     AbsorbingEnds, BranchNumber, CellCount, CellOffset, Lattice, LatticeWave, RandomWaves, Relaxed, Seed,
@@ -46,7 +45,7 @@ pub use record::{Record, Recorded};
 pub use shape::{
     Box, Capsule, Cone, Cylinder, Ellipsoid, Mesh, Part, PointMass, Polyhedron, Shape, Sphere, Torus, Union,
 };
-pub use signal::{Constant, Interpolation, Ramp, Signal, Table, Wave};
+pub use signal::{Constant, Interpolation, Ramp, Rows, Signal, Table, Wave};
 pub use solver::{Method, Solver};
 pub use spring::SpringBetween;
 pub use support::{Motion, Oscillation, Plane, Rotation, Support};

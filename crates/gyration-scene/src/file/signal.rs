@@ -1,47 +1,52 @@
-//! Tensors in time: the drive of a contractile body, and a contraction that is prescribed.
+//! Values in time: the drive of a contractile body, a contraction that is prescribed, the flow, and what drives a
+//! joint.
 //!
-//! `T` is what an entry of the tensor is: a pressure of a drive Q, a pure number of a contraction G. A travelling
-//! pattern is a sum of sines of one frequency with different phases.
+//! `V` is the value: the rows of a tensor (pressures of a drive Q, pure numbers of a contraction G, rates of a flow), a
+//! velocity, or the torque or force of a joint. A travelling pattern is a sum of sines of one frequency with different
+//! phases.
 
 use crate::quantity::{Angle, Duration, Frequency, NonNegative, Positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A 3×3 tensor in time.
+/// The rows of a tensor.
+pub type Rows<T> = [[T; 3]; 3];
+
+/// A value in time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(rename = "SignalOf{T}")]
+#[schemars(rename = "SignalOf{V}")]
 #[serde(rename_all = "snake_case")]
-pub enum Signal<T> {
+pub enum Signal<V> {
     /// The same at all times.
-    Constant(Constant<T>),
+    Constant(Constant<V>),
     /// amplitude · sin(2π·frequency·t + phase).
-    Sine(Wave<T>),
+    Sine(Wave<V>),
     /// amplitude where that sine is above zero, −amplitude where it is below.
-    Square(Wave<T>),
+    Square(Wave<V>),
     /// Linear in time from one value to another, which then stays.
-    Ramp(Ramp<T>),
+    Ramp(Ramp<V>),
     /// Read from a file.
     Table(Table),
     /// All of these added.
-    Sum(#[schemars(length(min = 1))] Vec<Signal<T>>),
+    Sum(#[schemars(length(min = 1))] Vec<Signal<V>>),
 }
 
-/// A tensor that does not change.
+/// A value that does not change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(rename = "ConstantOf{T}")]
+#[schemars(rename = "ConstantOf{V}")]
 #[serde(deny_unknown_fields)]
-pub struct Constant<T> {
-    /// Its rows.
-    pub value: [[T; 3]; 3],
+pub struct Constant<V> {
+    /// It; of a tensor its rows.
+    pub value: V,
 }
 
-/// A tensor that repeats itself.
+/// A value that repeats itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(rename = "WaveOf{T}")]
+#[schemars(rename = "WaveOf{V}")]
 #[serde(deny_unknown_fields)]
-pub struct Wave<T> {
-    /// Its rows at the highest.
-    pub amplitude: [[T; 3]; 3],
+pub struct Wave<V> {
+    /// The value at the highest; of a tensor its rows.
+    pub amplitude: V,
     /// Frequency (Hz).
     pub frequency: NonNegative<Frequency>,
     /// Phase (rad).
@@ -49,26 +54,26 @@ pub struct Wave<T> {
     pub phase: Angle,
 }
 
-/// A tensor that changes steadily for a while, from t = 0 on.
+/// A value that changes steadily for a while, from t = 0 on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(rename = "RampOf{T}")]
+#[schemars(rename = "RampOf{V}")]
 #[serde(deny_unknown_fields)]
-pub struct Ramp<T> {
-    /// Its rows at t = 0; at rest if absent: zero of a drive, the identity of a contraction.
+pub struct Ramp<V> {
+    /// The value at t = 0, of a tensor its rows; at rest if absent: the identity of a contraction, else zero.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub from: Option<[[T; 3]; 3]>,
-    /// Its rows from t = duration on.
-    pub to: [[T; 3]; 3],
+    pub from: Option<V>,
+    /// The value from t = duration on; of a tensor its rows.
+    pub to: V,
     /// How long it takes (s).
     pub duration: Positive<Duration>,
 }
 
-/// A tensor given at times.
+/// A value given at times.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Table {
-    /// A CSV file, relative to the scene: rows of t (s) and the nine entries in SI units, row by row, from 0 to the end
-    /// of the run.
+    /// A CSV file, relative to the scene: rows of t (s) and the value in SI units, of a tensor nine entries, row by
+    /// row, from 0 to the end of the run.
     pub file: String,
     /// What it does between its times.
     #[serde(default)]
