@@ -1,11 +1,11 @@
 //! The triangles that show a body, each ready to be integrated over.
 //!
 //! A triangle of a curved body is a chord: near a support the gap below it is larger than that of the surface by up to
-//! the bulge s, and a law d^−ν is missed by ν s/d. There the triangle is divided in n² and pushed out onto the true
-//! surface, which leaves ν s/(n² d); everywhere else it serves as it is. Over a triangle the integrals are exact.
+//! the bulge s, and a law d^−ν is missed by ν s/d. There the triangle is divided in four, pushed out onto the true
+//! surface, which leaves a quarter of the bulge, and so on; everywhere else it serves as it is. Over a triangle the
+//! integrals are exact.
 
 use gyration::body::Solid;
-use gyration::contact::{Contact, ContactLaw};
 use gyration::shape::{Shape, Triangulation};
 use gyration::surface::{GapField, Surface};
 use gyration::tensor::{Mat3, Vec3};
@@ -13,8 +13,8 @@ use std::borrow::Cow;
 
 /// The part of its traction by which a triangle may be wrong.
 const MISSED: f64 = 2e-3;
-/// How often a side is divided at most.
-const MOST_DIVISIONS: usize = 64;
+/// How often a triangle is divided in four at most.
+const MOST_DIVISIONS: usize = 12;
 
 /// The surface of a body, triangle by triangle; made once, used at every sample.
 #[derive(Debug, Clone)]
@@ -22,6 +22,20 @@ pub struct SurfaceCells {
     surface: Triangulation,
     cells: Vec<Cell>,
     leaves: Vec<Leaf>,
+}
+
+/// A place in a triangle, by the weights of its corners.
+type Weights = [f64; 3];
+
+/// How a law sees the surface of a body.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reached {
+    /// The distance of its points from the plane.
+    pub field: GapField,
+    /// The largest exponent of the powers of it.
+    pub exponent: f64,
+    /// The smallest distance of the whole surface \[m\].
+    pub nearest: f64,
 }
 
 /// A shape that is no union, and where it stands from the centre of mass.
@@ -44,8 +58,10 @@ struct Cell {
     bulge: f64,
 }
 
-/// The corners, the middles of the sides and the middle: where the gap under a triangle is looked at.
-const PROBES: [[f64; 3]; 7] = [
+/// The corners of a triangle, by their weights.
+const CORNERS: [Weights; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// The corners, the middles of the sides and the middle: where the bulge of a triangle is looked at.
+const PROBES: [Weights; 7] = [
     [1.0, 0.0, 0.0],
     [0.0, 1.0, 0.0],
     [0.0, 0.0, 1.0],
@@ -96,12 +112,22 @@ impl SurfaceCells {
         self.cells.is_empty()
     }
 
-    /// The surface over a triangle, as finely as the laws of a contact ask for at these gaps.
-    pub(super) fn over(&self, cell: usize, contact: &Contact, field: &GapField) -> Cow<'_, Surface> {
+    /// The triangles of a part of the body.
+    pub(super) fn of_part(&self, part: usize) -> impl Iterator<Item = usize> {
+        (0..self.cells.len()).filter(move |cell| self.cells[*cell].leaf == part)
+    }
+
+    /// The surface over a triangle, as finely as a law asks for.
+    pub(super) fn over(&self, cell: usize, reached: &Reached) -> Cow<'_, Surface> {
         let cell = &self.cells[cell];
         let leaf = &self.leaves[cell.leaf];
-        let divisions = leaf.divisions(cell, contact, field);
-        if divisions < 2 { Cow::Borrowed(&cell.flat) } else { Cow::Owned(leaf.divided(cell, divisions)) }
+        let mut points = Vec::new();
+        leaf.divide(cell, &CORNERS, 0, reached, &mut points);
+        if points.len() == CORNERS.len() {
+            return Cow::Borrowed(&cell.flat);
+        }
+        let triangles: Vec<[usize; 3]> = (0..points.len() / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        Cow::Owned(Surface::from_triangles(&points, &triangles).unwrap_or_default())
     }
 }
 
@@ -109,7 +135,7 @@ impl Leaf {
     fn cell(&self, leaf: usize, corners: [Vec3; 3]) -> Cell {
         let flat =
             Surface::from_triangles(&corners.map(|corner| self.place(&corner)), &[[0, 1, 2]]).unwrap_or_default();
-        let off = |weights: &[f64; 3]| {
+        let off = |weights: &Weights| {
             let chord: Vec3 = corners.iter().zip(weights).map(|(corner, weight)| corner * *weight).sum();
             (self.shape.over(&corners, weights) - chord).norm()
         };
@@ -121,35 +147,30 @@ impl Leaf {
         self.rotation * point + self.offset
     }
 
-    /// n, so that ν s/(n² d) is small enough.
-    fn divisions(&self, cell: &Cell, contact: &Contact, field: &GapField) -> usize {
-        let exponent = contact.law_set.laws().iter().map(ContactLaw::leading_exponent).fold(0.0, f64::max);
-        let bulge = cell.bulge * field.direction.norm();
-        // Flat faces bulge by rounding.
-        if bulge <= 1e-12 * cell.corners.iter().map(Vec3::norm).fold(0.0, f64::max) {
-            return 1;
-        }
-        let gap = |weights: &[f64; 3]| field.gap(&self.place(&self.shape.over(&cell.corners, weights)));
-        let smallest = PROBES.iter().map(gap).fold(f64::INFINITY, f64::min);
-        let wanted = (exponent * bulge / (MISSED * smallest)).sqrt().ceil();
+    /// Adds the corners of the triangles of a part of a cell, which has been divided so many times.
+    fn divide(&self, cell: &Cell, weights: &[Weights; 3], times: usize, reached: &Reached, out: &mut Vec<Vec3>) {
+        let corners = weights.map(|weights| self.place(&self.shape.over(&cell.corners, &weights)));
+        let Reached { field, exponent, nearest } = reached;
+        let bulge = cell.bulge * field.direction.norm() * libm::exp2(-2.0 * times as f64);
+        let gap = corners.iter().map(|corner| field.gap(corner)).fold(f64::INFINITY, f64::min);
         // Not a number, or beyond the plane, is the law's to tell.
-        if wanted.is_finite() { (wanted as usize).clamp(1, MOST_DIVISIONS) } else { 1 }
-    }
-
-    /// The true surface over a triangle, in n² triangles.
-    fn divided(&self, cell: &Cell, n: usize) -> Surface {
-        let row = |i: usize| (0..=n - i).map(move |j| [n - i - j, i, j].map(|weight| weight as f64 / n as f64));
-        let points: Vec<Vec3> =
-            (0..=n).flat_map(row).map(|weights| self.place(&self.shape.over(&cell.corners, &weights))).collect();
-        // Row i begins behind rows of n + 1, n, …, n + 2 − i points.
-        let at = |i: usize, j: usize| i * (n + 1) - i * i.saturating_sub(1) / 2 + j;
-        let mut triangles = Vec::with_capacity(n * n);
-        for (i, j) in (0..n).flat_map(|i| (0..n - i).map(move |j| (i, j))) {
-            triangles.push([at(i, j), at(i + 1, j), at(i, j + 1)]);
-            if i + j + 1 < n {
-                triangles.push([at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
-            }
+        let is_coarse = exponent * bulge > MISSED * nearest.max(gap - bulge);
+        if times == MOST_DIVISIONS || cell.is_flat() || !is_coarse {
+            out.extend(corners);
+            return;
         }
-        Surface::from_triangles(&points, &triangles).unwrap_or_default()
+        let [a, b, c] = *weights;
+        let middle = |one: Weights, other: Weights| [0, 1, 2].map(|i| 0.5 * (one[i] + other[i]));
+        let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+        for part in [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]] {
+            self.divide(cell, &part, times + 1, reached, out);
+        }
+    }
+}
+
+impl Cell {
+    /// Whether it bulges by rounding alone.
+    fn is_flat(&self) -> bool {
+        self.bulge <= 1e-12 * self.corners.iter().map(Vec3::norm).fold(0.0, f64::max)
     }
 }

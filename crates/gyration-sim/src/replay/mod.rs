@@ -73,7 +73,7 @@ impl Replay {
     /// Those of [`state`](Replay::state).
     pub fn snapshot(&mut self, row: usize) -> Result<Snapshot<'_>, ReplayError> {
         let state = self.state(row)?;
-        Ok(Snapshot { model: &self.model, row, state })
+        Ok(Snapshot::new(&self.model, row, state))
     }
 
     /// The mean Cauchy stress σ = S Pᵀ/det P of each body at a sample \[Pa\]; none of a rigid body.

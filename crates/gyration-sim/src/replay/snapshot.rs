@@ -1,17 +1,18 @@
-//! A body of a replay at one sample: velocity, gap and traction at points of its surface.
+//! The bodies of a replay at one sample: velocity, gap and traction at points of their surfaces.
 //!
 //!   p = p₀ + P X,   ṗ = ṗ₀ + Ṗ X,   d = (p − o)·n,   t = Σ c d^−ν × (n, −(n·w) n or −(I − n⊗n) w)
 //!
-//! over the terms of all laws with all supports. t is force per current area, whatever measure a contact has: a law per
-//! reference area is divided by the area factor k = |cof(P) N|. The surface tension of a potential per deformed area is
-//! no traction and has no resultant force; it is left aside.
+//! over the terms of all laws with all planes; the tractions of pairs are those at their planes
+//! (`gyration::pair::PairTractions`). t is force per current area, whatever measure a contact has: a law per reference
+//! area is divided by the area factor k = |cof(P) N|. The surface tension of a potential per deformed area is no
+//! traction and has no resultant force; it is left aside.
 
-use super::cells::SurfaceCells;
+use super::cells::{Reached, SurfaceCells};
 use super::error::ReplayError;
 use gyration::contact::{
-    Action, AreaMeasure, Contact, ContactLoads, ContactScratch, Deformation, Meeting, RelativeMotion, Term,
+    Action, AreaMeasure, Contact, ContactLaw, ContactLoads, ContactScratch, Deformation, Meeting, RelativeMotion, Term,
 };
-use gyration::dynamics::Workspace;
+use gyration::dynamics::{PairTractionsAt, Workspace, each_pair_traction};
 use gyration::model::Model;
 use gyration::state::{BodyMotion, State};
 use gyration::surface::GapField;
@@ -21,9 +22,10 @@ use gyration::{Inadmissible, Quantity};
 /// The bodies of a recording at one of its samples.
 #[derive(Debug, Clone)]
 pub struct Snapshot<'a> {
-    pub(super) model: &'a Model,
-    pub(super) row: usize,
-    pub(super) state: State,
+    model: &'a Model,
+    row: usize,
+    state: State,
+    motions: Vec<BodyMotion>,
 }
 
 /// One of them.
@@ -37,6 +39,16 @@ pub struct BodySnapshot<'a> {
 }
 
 impl<'a> Snapshot<'a> {
+    pub(super) fn new(model: &'a Model, row: usize, state: State) -> Self {
+        let bodies = 0..model.bodies.len();
+        // Of a state outside the model nothing better is known.
+        let motions = match Workspace::default().read(model, &state) {
+            Ok((instant, _)) => bodies.map(|body| *instant.at(body).motion).collect(),
+            Err(_) => bodies.map(|body| state.motion(model, body)).collect(),
+        };
+        Self { model, row, state, motions }
+    }
+
     /// The model.
     pub fn model(&self) -> &'a Model {
         self.model
@@ -49,11 +61,44 @@ impl<'a> Snapshot<'a> {
 
     /// A body, by its index.
     pub fn body(&self, body: usize) -> BodySnapshot<'a> {
-        // Of a state outside the model nothing better is known.
-        let mut workspace = Workspace::default();
-        let read = workspace.read(self.model, &self.state).map(|(instant, _)| *instant.at(body).motion);
-        let motion = read.unwrap_or_else(|_| self.state.motion(self.model, body));
+        let motion = self.motions[body];
         BodySnapshot { model: self.model, row: self.row, time: self.state.time, body, motion }
+    }
+
+    /// The mean traction over each triangle of the surfaces of all bodies, per current area \[Pa\], from its integral;
+    /// empty of a body without a surface.
+    ///
+    /// Times the current area of the triangle it is the force of all contacts on the part of the true surface over it:
+    /// they add up to the recorded force, to rounding if all faces are flat, to some thousandths if not.
+    ///
+    /// # Errors
+    /// `Inadmissible` if a triangle reaches a support, or the plane between its body and another.
+    pub fn mean_tractions(&self, surfaces: &[Option<&SurfaceCells>]) -> Result<Vec<Vec<Vec3>>, ReplayError> {
+        let outside = |source| ReplayError::Inadmissible { row: self.row, source };
+        let mut workspace = Workspace::default();
+        let (instant, _) = workspace.read(self.model, &self.state).map_err(outside)?;
+        let mut all = Vec::with_capacity(surfaces.len());
+        for (index, cells) in surfaces.iter().enumerate() {
+            let Some(cells) = cells else {
+                all.push(Vec::new());
+                continue;
+            };
+            let body = self.body(index);
+            let mut forces = body.forces_of_planes(cells)?;
+            each_pair_traction(&instant.at(index), |pair: PairTractionsAt| {
+                let PairTractionsAt { pair, side, tractions, room } = pair;
+                let (field, nearest) = tractions.gaps(side);
+                let reached = Reached { field, exponent: tractions.steepest(), nearest };
+                for cell in cells.of_part(pair.parts[side]) {
+                    forces[cell] += tractions.force_on(side, &cells.over(cell, &reached), room)?;
+                }
+                Ok(())
+            })
+            .map_err(outside)?;
+            body.divide_by_areas(cells, &mut forces);
+            all.push(forces);
+        }
+        Ok(all)
     }
 }
 
@@ -70,7 +115,7 @@ impl BodySnapshot<'_> {
         gaps.fold(f64::INFINITY, f64::min)
     }
 
-    /// The traction of all contact laws at a point of the surface, per current area \[Pa\].
+    /// The traction of all contact laws with planes at a point of the surface, per current area \[Pa\].
     ///
     /// X from the centre of mass \[m\], N the outward unit normal there, both in the reference placement.
     ///
@@ -93,35 +138,37 @@ impl BodySnapshot<'_> {
         Ok(traction)
     }
 
-    /// The mean traction over each triangle of a surface, per current area \[Pa\], from its integral.
-    ///
-    /// Times the current area of the triangle it is the contact force on the part of the true surface over it: they add
-    /// up to the recorded force, to rounding if all faces are flat, to some thousandths if not.
-    ///
-    /// # Errors
-    /// `Inadmissible` if a triangle reaches a support.
-    pub fn mean_tractions(&self, cells: &SurfaceCells) -> Result<Vec<Vec3>, ReplayError> {
+    /// The force of all planes on the surface over each triangle \[N\].
+    fn forces_of_planes(&self, cells: &SurfaceCells) -> Result<Vec<Vec3>, ReplayError> {
         let gradient = &self.motion.placement.gradient;
         let deformation = self.model.bodies[self.body].affine().and_then(|_| Deformation::of(gradient));
         let mut scratch = ContactScratch::default();
-        let mut tractions = vec![Vec3::zeros(); cells.len()];
+        let mut forces = vec![Vec3::zeros(); cells.len()];
+        let Some(whole) = &self.model.bodies[self.body].solid.surface else { return Ok(forces) };
         for contact in self.contacts() {
             let (field, motion) = self.relative_to(contact);
-            for (cell, force) in tractions.iter_mut().enumerate() {
-                let surface = cells.over(cell, contact, &field);
+            let exponent = contact.law_set.laws().iter().map(ContactLaw::leading_exponent).fold(0.0, f64::max);
+            let reached = Reached { field, exponent, nearest: whole.smallest_gap(&field).0 };
+            for (cell, force) in forces.iter_mut().enumerate() {
+                let surface = cells.over(cell, &reached);
                 let contact_state = Meeting { surface: &surface, field, motion, deformation };
                 let loads = ContactLoads::integrate(&contact.law_set, &contact_state, &mut scratch);
                 *force += loads.map_err(|closed| self.outside(contact, closed.gap))?.total().force;
             }
         }
+        Ok(forces)
+    }
+
+    /// Makes tractions of the forces on triangles.
+    fn divide_by_areas(&self, cells: &SurfaceCells, forces: &mut [Vec3]) {
+        let gradient = &self.motion.placement.gradient;
         let surface = cells.surface();
-        for (triangle, traction) in surface.triangles.iter().zip(&mut tractions) {
+        for (triangle, force) in surface.triangles.iter().zip(forces) {
             let [a, b, c] = surface.corners(triangle).map(|corner| gradient * corner);
             let area = 0.5 * (b - a).cross(&(c - a)).norm();
             // A triangle without area bears nothing.
-            *traction = if area > 0.0 { *traction / area } else { Vec3::zeros() };
+            *force = if area > 0.0 { *force / area } else { Vec3::zeros() };
         }
-        Ok(tractions)
     }
 
     /// The gap to the support of a contact, and the motion relative to it.

@@ -183,6 +183,13 @@ pub(super) fn slipped(
     (motion, moved)
 }
 
+/// M of a side, given κ d^ν′.
+fn weighed(coefficient: f64, feet: Option<&[Foot; 2]>, side: usize, moments: &Moments) -> Mat4 {
+    let Moments { zeroth, first, second, .. } = moments;
+    let whole = coefficient * joined(*zeroth, first, second);
+    feet.map_or(whole, |feet| feet[side].carried(&whole))
+}
+
 /// B_A B_B/(B_A + B_B).
 fn in_series([above, below]: [f64; 2]) -> f64 {
     above * (below / (above + below))
@@ -207,11 +214,7 @@ impl Mediator {
     ) -> Result<Self, PairFault> {
         let kind = law.kind;
         let feet = (kind == LawKind::Friction).then(|| halves.map(|half| Foot::new(half, placed)));
-        let moments = [0, 1].map(|side| {
-            let Moments { zeroth, first, second, .. } = moments[side];
-            let whole = shares.coefficient(law, side) * joined(*zeroth, first, second);
-            feet.map_or(whole, |feet| feet[side].carried(&whole))
-        });
+        let moments = [0, 1].map(|side| weighed(shares.coefficient(law, side), feet.as_ref(), side, moments[side]));
         let fields = halves.map(|half| fields(kind, placed, &from_foot(half, foot)));
         let projector = projector(kind, &placed.plane.normal);
         let moved = halves.map(|half| projector * half.rates());
@@ -266,6 +269,12 @@ impl Mediator {
     /// (f | M) on a side.
     pub fn loads(&self, side: usize) -> Mat34 {
         let viscous = self.viscous(side);
+        self.bound.as_ref().map_or(viscous, |bound| bound.factor() * viscous)
+    }
+
+    /// (f | M) on a part of a side, given κ d^ν′ and the moments of d^−ν′ over it.
+    pub fn on_part(&self, side: usize, coefficient: f64, moments: &Moments) -> Mat34 {
+        let viscous = -(self.slips[side] * weighed(coefficient, self.feet.as_ref(), side, moments));
         self.bound.as_ref().map_or(viscous, |bound| bound.factor() * viscous)
     }
 

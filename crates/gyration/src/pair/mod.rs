@@ -40,6 +40,7 @@
 //! | `tension`     | what makes tractions per deformed area derive from a potential  |
 //! | `opening`     | damping that hardly pulls on what recedes                       |
 //! | `loads`       | forces, moments, energy and powers                               |
+//! | `tractions`   | forces on parts of the surfaces of both                          |
 //! | `slopes`      | their derivatives by the coordinates and velocities of both      |
 
 mod areas;
@@ -69,6 +70,7 @@ mod side;
 mod slopes;
 mod state;
 mod tension;
+mod tractions;
 
 pub use exchange::{PairGap, PairLoads, PairSlopes};
 pub use fault::PairFault;
@@ -79,6 +81,7 @@ pub use plane::Guess;
 pub use reach::{Falling, Mass, Reach, Threshold};
 pub use side::Side;
 pub use state::PairScratch;
+pub use tractions::PairTractions;
 
 use nalgebra::{Matrix3x4, Matrix4, Vector4};
 

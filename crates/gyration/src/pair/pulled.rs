@@ -69,8 +69,7 @@ impl Term {
 
     /// At a plane, from the moments of both sides.
     fn new(law: &PullTerm, halves: [&Half; 2], moments: [&[Moments]; 2]) -> Self {
-        let potentials =
-            moments.map(|own| Potential::new(law.coefficient(), law.exponent, law.places.map(|place| &own[place])));
+        let potentials = moments.map(|own| law.potential(own));
         let values = potentials.each_ref().map(|potential| potential.value);
         let mean = Mean::of(values, halves.map(|half| half.root_share), law.exponent);
         Self { law: *law, mean, potentials }
@@ -93,12 +92,32 @@ pub(super) fn carried(expansion: &Expansion, halves: [&Half; 2], shift: &Vec3) -
         let scale = parts[i] / value;
         let stiff = second * heights[i];
         let weight = power * mean - (1.0 + power) * growth[i];
-        let pull = scale * (stiff - weight * first);
+        let pull = carried_pull(scale, &stiff, weight, first);
         Carried { scale, heights: heights[i], stiff, growth: growth[i], weight, pull }
     })
 }
 
+/// e.
+fn carried_pull(scale: f64, stiff: &Vec4, weight: f64, first: &Vec4) -> Vec4 {
+    scale * (stiff - weight * first)
+}
+
+impl Carried {
+    /// (f | M)/σ on a part of a side, or the whole, given A and its potential.
+    fn on_part(&self, normal: &Vec3, turn: &Vec3, pull: &Vec4, own: &Potential) -> Mat34 {
+        let carried = carried_pull(self.scale, &(own.second * self.heights), self.weight, &own.first);
+        normal * (pull + carried).transpose() - self.scale * turn * own.first.transpose()
+    }
+}
+
 impl Pulled {
+    /// (f | M)/σ on a part of a side, given the moments of adhesion over it and its potential.
+    pub fn on_part(&self, side: usize, normal: &Vec3, moments: &[Moments], own: &Potential) -> Mat34 {
+        let pull = |term: &Term| term.weight(side) * term.law.potential(moments).first;
+        let pull: Vec4 = self.terms.iter().flatten().map(pull).sum();
+        self.carried[side].on_part(normal, &self.turn, &pull, own)
+    }
+
     /// At a plane in balance, about which log U is expanded.
     ///
     /// # Errors
@@ -131,9 +150,8 @@ impl Pulled {
         let turn = expansion.turned(&shift);
         let carried = carried(expansion, halves, &shift);
         let on = [0, 1].map(|i| {
-            let Carried { scale, pull, .. } = &carried[i];
-            let along = expansion.plane.normal * (pulls[i] + pull).transpose();
-            halves[i].sign * (along - *scale * turn * expansion.potentials[i].first.transpose())
+            let own = &expansion.potentials[i];
+            halves[i].sign * carried[i].on_part(&plane.normal, &turn, &pulls[i], own)
         });
         Ok(Self { energy, stored, terms, pulls, turn, carried, on })
     }

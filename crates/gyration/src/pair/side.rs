@@ -140,19 +140,14 @@ impl Half<'_> {
         Mat3::new(one.x, one.y, one.z, one.y, other.y, other.z, one.z, other.z, h[(0, 0)])
     }
 
-    /// The gaps to a plane.
-    fn field(heights: &Vec4) -> GapField {
-        GapField::new(heights[0], heights.fixed_rows::<3>(1).into())
-    }
-
     /// The smallest gap to a plane [m] and the material point where it is.
     pub fn smallest_gap(&self, plane: &Plane) -> (f64, Vec3) {
-        self.side.surface.smallest_gap(&Self::field(&self.heights(plane)))
+        self.side.surface.smallest_gap(&self.field(plane))
     }
 
     /// The moments of a plan, in the measure of the pair.
     pub fn moments(&self, plane: &Plane, plan: &MomentPlan, out: &mut [Moments]) -> Result<(), GapClosed> {
-        let field = Self::field(&self.heights(plane));
+        let field = self.field(plane);
         match self.cofactor {
             Some(cofactor) => self.side.surface.deformed_moments(&field, cofactor, plan, out),
             None => self.side.surface.planned_moments(&field, plan, out),
@@ -167,7 +162,7 @@ impl Half<'_> {
         out: &mut [OrientedMoments],
     ) -> Result<(), GapClosed> {
         let Some(cofactor) = self.cofactor else { return Ok(()) };
-        self.side.surface.oriented_moments(&Self::field(&self.heights(plane)), cofactor, plan, out)
+        self.side.surface.oriented_moments(&self.field(plane), cofactor, plan, out)
     }
 
     /// The potential of a plane.
@@ -175,6 +170,12 @@ impl Half<'_> {
         self.moments(plane, &laws.placing, room)?;
         let [energy, force, stiffness] = room else { unreachable!("the plan of a repulsion has three powers") };
         Ok(Potential::new(laws.coefficient, laws.repulsion.exponent, [energy, force, stiffness]))
+    }
+
+    /// The gaps to a plane.
+    pub fn field(&self, plane: &Plane) -> GapField {
+        let heights = self.heights(plane);
+        GapField::new(heights[0], heights.fixed_rows::<3>(1).into())
     }
 
     /// (ṗ₀ | Ṗ).

@@ -6,9 +6,9 @@
 //! | at | array | unit | what |
 //! |---|---|---|---|
 //! | points | `velocity` | m/s | ṗ₀ + Ṗ X |
-//! | points | `gap` | m | distance to the nearest support |
+//! | points | `gap` | m | distance to the nearest plane |
 //! | cells | `body` | – | index of the body; its name in `body_names` |
-//! | cells | `traction` | Pa | mean of all laws per current area: times the area, the contact force on the cell |
+//! | cells | `traction` | Pa | mean of all laws, with planes and other bodies, per current area: times the area, the contact force on the cell |
 //! | cells | `cauchy_stress`, `von_mises` | Pa | mean stress of a body that deforms, NaN of a rigid one |
 //! | whole | `TimeValue`, `energy_…`, `work_…`, `contact_force`, `body_names` | s, J, N | as recorded |
 
@@ -17,7 +17,7 @@ mod ground;
 mod solids;
 mod support_surfaces;
 
-use super::{BodySnapshot, Replay, ReplayError, Snapshot};
+use super::{BodySnapshot, Replay, ReplayError, Snapshot, SurfaceCells};
 use figures::Figures;
 use ground::Sheets;
 use gyration::tensor::{Mat3, Vec3};
@@ -124,7 +124,7 @@ impl<'a> VtkSample<'a> {
     /// The surface, without the arrays of the whole.
     fn poly_data(&self) -> Result<PolyData<'a>, ReplayError> {
         let model = self.snapshot.model();
-        let touch = !model.contacts().is_empty();
+        let touch = !model.contacts().is_empty() || model.rules().all().iter().next().is_some();
         let deform = self.stress.iter().any(Option::is_some);
         let velocity = self.at_points(|body, x| body.motion().velocity.at(x).into());
         let mut point_data = vec![DataArray { name: "velocity", units: "m/s", components: 3, values: velocity }];
@@ -174,12 +174,8 @@ impl<'a> VtkSample<'a> {
 
     /// Of all cells; single points bear none.
     fn tractions(&self, bodies: &[usize]) -> Result<CompressedNumbers, ReplayError> {
-        let mut of_triangles = Vec::new();
-        for (index, skin) in self.figures.skins().enumerate() {
-            if let Some(skin) = skin {
-                of_triangles.extend(self.snapshot.body(index).mean_tractions(skin)?);
-            }
-        }
+        let skins: Vec<Option<&SurfaceCells>> = self.figures.skins().collect();
+        let of_triangles: Vec<Vec3> = self.snapshot.mean_tractions(&skins)?.into_iter().flatten().collect();
         let points = bodies.len() - of_triangles.len();
         let all = std::iter::repeat_n(Vec3::zeros(), points).chain(of_triangles);
         Ok(CompressedNumbers::floats(all.flat_map(<[f64; 3]>::from)))
