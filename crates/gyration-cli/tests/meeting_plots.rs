@@ -83,6 +83,18 @@ fn a_push_without_friction_is_a_normal_force_whatever_its_direction() {
 }
 
 #[test]
+fn recorded_peaks_and_impulses_take_the_place_of_sampled_forces() {
+    for (asked, shown, hidden) in [
+        ("\"peak_force\", \"impulse\"", ["Force of contact", "peaks from sample to sample"], "sampled every"),
+        ("\"impulse\"", ["Force of contact", "means from sample to sample"], "peaks"),
+    ] {
+        let sandbox = recorded(&balls(&format!("[record]\nquantities = [{asked}]\n")));
+        let told = drawn(&sandbox, &["scene.gyr", "forces"]);
+        assert!(shown.iter().all(|shown| told.contains(shown)) && !told.contains(hidden), "{told}");
+    }
+}
+
+#[test]
 fn a_legend_names_the_classes_of_many_bodies_and_leaves_none_out() {
     let mut more = String::new();
     for k in 0..10 {
@@ -115,4 +127,18 @@ fn a_body_that_flies_off_is_named_at_the_edge_and_makes_no_other_small() {
     };
     assert_eq!(bar(far), (true, false));
     assert_eq!(bar(&near), (false, false));
+}
+
+#[test]
+fn laws_on_a_support_with_a_shape_are_drawn() {
+    let sandbox = Sandbox::new();
+    sandbox.write(
+        "scene.toml",
+        "[time]\nend = 0.1\nsample = 0.1\n[[support]]\nname = \"slab\"\nshape = { box = { size = [1, 1, 0.1] } }\n\
+         position = [0, 0, -0.05]\n[[body]]\nname = \"ball\"\nshape = { sphere = { radius = 0.05 } }\nmass = 1\n\
+         position = [0, 0, 0.1]\n[[contact]]\nbody = \"ball\"\nsupport = \"slab\"\n\
+         repulsion = { alpha = 1000, nu = 6, d0 = \"1 mm\" }\n",
+    );
+    let told = drawn(&sandbox, &["scene.toml", "laws"]);
+    assert!(told.contains("ball on slab") && told.contains("(slab): ν = 6"), "{told}");
 }

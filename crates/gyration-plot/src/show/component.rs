@@ -1,6 +1,7 @@
 //! Measures of a body by their names: those of the columns of the CSV without the body, and two that have no column.
 //!
-//!   G_xz, P_zz, Pdot_xx; x, vx, fx; gap, pressure; V_xx and Q_xx, of contraction velocity and drive
+//!   G_xz, P_zz, Pdot_xx; x, vx, fx, impulse_x; gap, pressure, peak_force; V_xx and Q_xx, of contraction velocity and
+//!   drive
 
 use crate::error::PlotError;
 use crate::recorded::RecordedScene;
@@ -14,8 +15,9 @@ const MATRICES: [(&str, &str); 5] = [
     ("Q", "drive"),
 ];
 /// Letters before the component, and the array of vectors.
-const VECTORS: [(&str, &str); 3] = [("", "position"), ("v", "velocity"), ("f", "contact_force")];
-const SCALARS: [&str; 2] = ["gap", "pressure"];
+const VECTORS: [(&str, &str); 4] =
+    [("", "position"), ("v", "velocity"), ("f", "contact_force"), ("impulse_", "impulse")];
+const SCALARS: [&str; 3] = ["gap", "pressure", "peak_force"];
 const AXES: [char; 3] = ['x', 'y', 'z'];
 
 /// A number that a recording has of each body at each sample.
@@ -81,13 +83,14 @@ fn matrix(name: &str) -> Option<BodyNumber> {
 fn vector(name: &str) -> Option<BodyNumber> {
     let component = axis(name.chars().last()?)?;
     let (letters, array) = VECTORS.iter().find(|(known, _)| *known == &name[..name.len() - 1])?;
+    let letters = letters.trim_end_matches('_');
     let label = if letters.is_empty() { name.to_owned() } else { format!("{letters}_{{{}}}", AXES[component]) };
     Some(BodyNumber::of_array(array, 3, component, label))
 }
 
 fn scalar(name: &str) -> Option<BodyNumber> {
     let array = SCALARS.into_iter().find(|known| *known == name)?;
-    Some(BodyNumber::of_array(array, 1, 0, name.to_owned()))
+    Some(BodyNumber::of_array(array, 1, 0, name.replace('_', " ")))
 }
 
 #[cfg(test)]
@@ -101,6 +104,8 @@ mod tests {
         assert_eq!(found("Pdot_zy"), Some(("gradient_rate", 9, 7, "Pdot_{zy}".to_owned())));
         assert_eq!(found("z"), Some(("position", 3, 2, "z".to_owned())));
         assert_eq!(found("vx"), Some(("velocity", 3, 0, "v_{x}".to_owned())));
+        assert_eq!(found("impulse_y"), Some(("impulse", 3, 1, "impulse_{y}".to_owned())));
+        assert_eq!(found("peak_force"), Some(("peak_force", 1, 0, "peak force".to_owned())));
         assert_eq!(found("gap"), Some(("gap", 1, 0, "gap".to_owned())));
         for name in ["", "G", "G_", "G_x", "G_xxx", "G_xw", "H_xx", "ux", "é", "G_é", "gaps"] {
             assert!(find(name).is_none(), "{name}");

@@ -2,8 +2,8 @@
 //!
 //! A body that only one plane, or planes of one normal, can touch has the parts of its recorded force. Where it meets
 //! others, each contact is split by its own normal (`gyration::dynamics::ContactParts`), from what was recorded of that
-//! or from model and states. Impacts exceed the weight by orders of magnitude: then the axis is logarithmic, from a
-//! thousandth of the weight on.
+//! or from model and states. Where a run has recorded peaks or impulses, `intervals` shows these instead. Impacts
+//! exceed the weight by orders of magnitude: then the axis is logarithmic, from a thousandth of the weight on.
 
 use super::bodies::{body_series, drawn_bodies, hue, time_axis, values};
 use crate::chart::ticks::short;
@@ -45,8 +45,7 @@ pub fn chart(recorded: &RecordedScene) -> Result<Chart, PlotError> {
         return Err(PlotError::Nothing { what: "forces", reason: "neither a support nor another body acts on a body" });
     }
     let x = time_axis(recorded)?;
-    let masses = forces.bodies.iter().map(|body| recorded.bodies[*body].mass);
-    let weight = masses.fold(0.0, f64::max) * recorded.gravity.dot(&normal.unwrap_or_else(|| recorded.up())).abs();
+    let weight = heaviest(recorded, &forces.bodies, &normal.unwrap_or_else(|| recorded.up()));
     let (mut series, mut remarks) = forces.series(recorded, most);
     if weight > 0.0 && forces.bodies.len() == 1 {
         series.push(Series::level("weight", weight, &x));
@@ -58,7 +57,7 @@ pub fn chart(recorded: &RecordedScene) -> Result<Chart, PlotError> {
         }
         remarks.push("magnitudes: the model is not known".to_owned());
     }
-    let y = axis(&series, weight, most);
+    let y = force_axis(&series, weight, most);
     let title = "Force of contact".to_owned();
     Ok(Chart { title, x, y, series, remarks, height: HEIGHT })
 }
@@ -166,7 +165,14 @@ fn sampling(recorded: &RecordedScene) -> Result<String, PlotError> {
     Ok(format!("sampled every {} s", short(spacing)))
 }
 
-fn axis(series: &[Series], weight: f64, most: f64) -> Axis {
+/// The largest weight of some bodies along a direction [N].
+pub fn heaviest(recorded: &RecordedScene, bodies: &[usize], along: &Vec3) -> f64 {
+    let masses = bodies.iter().map(|body| recorded.bodies[*body].mass);
+    masses.fold(0.0, f64::max) * recorded.gravity.dot(along).abs()
+}
+
+/// The axis of forces of which the largest magnitude is `most`: logarithmic where the weight is little beside it.
+pub fn force_axis(series: &[Series], weight: f64, most: f64) -> Axis {
     let attraction = values(series).any(|force| force < -1e-6 * most);
     if weight > 0.0 && most > VIOLENT * weight && !attraction {
         let floor = Axis::logarithmic("force", "N", [1e-3 * weight, most]);

@@ -8,6 +8,7 @@ mod drive;
 mod effort;
 mod energy;
 mod forces;
+mod intervals;
 mod laws;
 mod motion;
 mod quantity;
@@ -85,7 +86,10 @@ fn panels(recorded: &RecordedScene, quantity: PlotQuantity, measures: &[String])
         PlotQuantity::Height => vec![motion::height(recorded)?],
         PlotQuantity::Gap => vec![motion::gap(recorded)?],
         PlotQuantity::Stretch => stretch::charts(recorded)?,
-        PlotQuantity::Forces => vec![forces::chart(recorded)?],
+        PlotQuantity::Forces => vec![match intervals::chart(recorded)? {
+            Some(chart) => chart,
+            None => forces::chart(recorded)?,
+        }],
         PlotQuantity::Energy => energy::charts(recorded)?,
         PlotQuantity::Stroke => stroke::charts(recorded, measures)?,
         PlotQuantity::Distance => vec![distance::chart(recorded)?],

@@ -66,6 +66,15 @@ pub(super) fn body(model: &Model, experiment: &Experiment) -> Result<usize, Stri
 /// The normal of the first support that acts on a body.
 pub(super) fn normal(model: &Model, body: usize) -> Result<Vec3, String> {
     let contact = model.contacts_of(body).next();
-    let contact = contact.ok_or_else(|| format!("no support acts on {:?}", model.name(body)))?;
+    let contact = contact.ok_or_else(|| {
+        let name = model.name(body);
+        if model.has_pairs(body) {
+            return format!(
+                "{name:?} meets a support with a shape, and what is measured is against a plane: give the support a \
+                 `plane` where its face is large beside the body"
+            );
+        }
+        format!("no support acts on {name:?}")
+    })?;
     Ok(model.supports[contact.support].normal)
 }

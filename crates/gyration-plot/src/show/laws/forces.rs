@@ -13,7 +13,7 @@ use gyration::neighbours::Pair;
 use gyration::state::State;
 use gyration_sim::survey::{Approach, Encounter, RestGap};
 use serde_json::Value;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// Curves with marks for their weights and gaps of rest.
@@ -33,7 +33,7 @@ pub struct ForceCurve<'a> {
 enum Meeting<'a> {
     /// A body its support.
     Support { approach: Box<Approach<'a>>, rests: Vec<RestGap> },
-    /// A body another one.
+    /// A body another one, or a support with a shape.
     Bodies(Box<Encounter<'a>>),
 }
 
@@ -65,6 +65,14 @@ impl<'a> ForceCurve<'a> {
             if let Some(encounter) = Encounter::new(model, start, first) {
                 let name = groups.name(model, bodies.len(), bodies.iter().copied());
                 curves.push(Self { name, of: Meeting::Bodies(Box::new(encounter)) });
+            }
+        }
+        for pair in unlike(model) {
+            if curves.len() >= MOST_CURVES {
+                left_out += 1;
+            } else if let Some(encounter) = Encounter::new(model, start, pair) {
+                let [one, other] = pair.parties.map(|party| model.party_name(party));
+                curves.push(Self { name: format!("{one} on {other}"), of: Meeting::Bodies(Box::new(encounter)) });
             }
         }
         (curves, left_out)
@@ -134,6 +142,16 @@ fn sorts(model: &Model) -> Vec<(Vec<[usize; 2]>, Vec<Pair>)> {
     sorts
 }
 
+/// The pairs with supports that have a shape, one of those that are alike: parts of equal bodies with those of a
+/// support.
+fn unlike(model: &Model) -> impl Iterator<Item = &Pair> {
+    let mut known = HashSet::new();
+    model.pairs_with_supports().iter().filter(move |pair| {
+        let solids = pair.parties.map(|party| model.solid_of(party).map(std::ptr::from_ref));
+        known.insert((pair.rule, solids, pair.parts))
+    })
+}
+
 /// The forces of all curves; each is named, those of bodies with one force under one name.
 pub fn force_chart(curves: &[ForceCurve], left_out: usize, gaps: &GapRange) -> Option<Chart> {
     let mut sorts: Vec<(Vec<Point>, Vec<&ForceCurve>)> = Vec::new();
@@ -153,7 +171,7 @@ pub fn force_chart(curves: &[ForceCurve], left_out: usize, gaps: &GapRange) -> O
     let title = "Force of the central laws on a body at its first orientation";
     let mut chart = chart([title, "force", "N"], gaps, series)?;
     if curves.iter().any(|curve| matches!(curve.of, Meeting::Bodies(_))) {
-        chart.remarks.extend(["between bodies: distance".to_owned(), "is the slab between them".to_owned()]);
+        chart.remarks.extend(["between solids: distance".to_owned(), "is the slab between them".to_owned()]);
     }
     if left_out > 0 {
         chart.remarks.push(format!("{} of {} forces drawn", curves.len(), curves.len() + left_out));

@@ -40,7 +40,7 @@ const MOST_DECADES: f64 = 14.0;
 pub fn law_panels(model: &Model, start: &State, resolved: &Value) -> Result<Vec<Panel>, PlotError> {
     let (curves, left_out) = ForceCurve::all(model, start, resolved);
     if curves.is_empty() {
-        let reason = "no contact is given between a body and a support, or between two bodies";
+        let reason = "no contact acts between a body and a support, or between two bodies";
         return Err(PlotError::Nothing { what: "laws", reason });
     }
     let rests = curves.iter().flat_map(ForceCurve::rests).map(|rest| rest.gap).collect();
@@ -105,7 +105,7 @@ fn law_chart(sources: &[LawSource], gaps: &GapRange, laws: &Laws) -> Option<Char
     }
     let mut chart = chart([laws.title, laws.name, laws.unit], gaps, series)?;
     if between {
-        chart.remarks.extend(["between bodies: distance".to_owned(), "to the plane between them".to_owned()]);
+        chart.remarks.extend(["between solids: distance".to_owned(), "to the plane between them".to_owned()]);
     }
     Some(chart)
 }
