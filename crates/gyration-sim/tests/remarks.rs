@@ -251,3 +251,21 @@ fn what_the_fluid_between_bodies_would_do_is_told_with_its_size() {
     assert!(sunk.contains("at t = 0.01 s"), "{sunk}");
     assert!(recorded(&above(0.06)).is_empty());
 }
+
+#[test]
+fn a_support_that_is_carried_round_the_origin_is_told() {
+    let notes = |motion: &str| {
+        let support = format!(
+            "[[support]]\nname = \"drum\"\nshape = {{ cylinder = {{ radius = 0.2, height = 0.1 }} }}\n\
+             position = [2, 0, 0]\nmotion = {{ rotate = {{ rate = 3, {motion} }} }}\n"
+        );
+        remarks(&format!("{HEAD}{support}{}", ball("a", 0.02, &at(0.0)))).notes
+    };
+    let told = notes("axis = [0, 0, 1]");
+    assert!(told.iter().any(|note| note.contains("\"drum\" is carried round the origin, 2 m")), "{told:?}");
+    // About a line through its centre, and one that was given.
+    for motion in ["axis = [1, 0, 0]", "axis = [0, 0, 1], point = [2, 0, 0]", "axis = [0, 0, 1], point = [1, 0, 0]"] {
+        let told = notes(motion);
+        assert!(!told.iter().any(|note| note.contains("carried round")), "{motion}: {told:?}");
+    }
+}

@@ -14,6 +14,7 @@ mod reaches;
 mod stored;
 mod strangers;
 mod trial;
+mod turning;
 
 pub(crate) use fluid::LeftOut;
 
@@ -45,6 +46,7 @@ impl Remarks {
         let mut remarks = Self::default();
         strangers::remark(model, start, &mut remarks);
         remarks.notes.extend(plates::notes(model, start));
+        remarks.notes.extend(turning::notes(model));
         remarks.warnings.extend(meshes::warnings(model));
         remarks.warnings.extend(stored::warning(model, start));
         remarks.warnings.extend(reaches::warnings(model, start));
