@@ -28,7 +28,7 @@ impl Fuse {
 
 fn disk(operations: usize) -> (Disk, Rc<Cell<usize>>) {
     let left = Rc::new(Cell::new(operations));
-    (Disk { fuse: Some(Fuse(left.clone())) }, left)
+    (Disk { fuse: Some(Fuse(left.clone())), ..Disk::default() }, left)
 }
 
 const ROWS: usize = 23;

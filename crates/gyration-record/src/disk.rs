@@ -1,7 +1,8 @@
 //! The few file operations that writing a recording takes, each with the path in its error.
 //!
 //! A file is replaced as a whole: written beside itself as `NAME.part`, brought to the disk, renamed; so it is the old
-//! or the new one at any moment. Tests cut the power before any of these operations.
+//! or the new one at any moment. What has no name yet is brought to the disk once, before it gets one. Tests cut the
+//! power before any of these operations.
 
 use crate::error::RecordError;
 use crate::metadata::Group;
@@ -9,9 +10,7 @@ pub(crate) use crate::names::{METADATA, STATE};
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
-use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
-use std::thread::ScopedJoinHandle;
 
 /// The file of the checkpoint.
 pub(crate) const CHECKPOINT: &str = "state/checkpoint";
@@ -22,11 +21,14 @@ const PART: &str = ".part";
 /// How deep a recording is: groups, their arrays, the chunks of these.
 const DEPTH: usize = 3;
 /// Files on their way to the disk at once: waiting is all they do.
+#[cfg(not(target_os = "linux"))]
 const SYNC_THREADS: usize = 8;
 
 /// Access to the disk.
 #[derive(Debug, Default)]
 pub(crate) struct Disk {
+    /// Whether what is written may still be lost: it is brought to the disk with all else before it gets its name.
+    pub(crate) is_unnamed: bool,
     #[cfg(test)]
     pub(crate) fuse: Option<crate::crash_tests::Fuse>,
 }
@@ -55,14 +57,29 @@ impl Disk {
         if !cfg!(unix) {
             return Ok(());
         }
+        if self.is_unnamed {
+            return paths.iter().try_for_each(|path| self.step(path));
+        }
         let open = |path: &&'_ Path| File::open(path).map_err(RecordError::io("open", path));
         let dirs = paths.iter().map(open).collect::<Result<Vec<_>, _>>()?;
         self.sync_files(&dirs.into_iter().zip(paths.iter().copied()).collect::<Vec<_>>())
     }
 
+    /// Gives what has no name yet its own: all of it comes to the disk before, the name after.
+    pub(crate) fn name(&mut self, from: &Path, to: &Path) -> Result<(), RecordError> {
+        self.step(from)?;
+        if !self.is_test() {
+            sync_tree(from)?;
+        }
+        self.rename(from, to)?;
+        self.is_unnamed = false;
+        let parent = to.parent().filter(|parent| !parent.as_os_str().is_empty());
+        self.sync_dirs(&[parent.unwrap_or(Path::new("."))])
+    }
+
     /// Replaces files and brings them to the disk, with their names: all contents first, then all names.
     pub(crate) fn replace(&self, files: &[(PathBuf, &[u8])]) -> Result<(), RecordError> {
-        self.put_in_place(files, true)?;
+        self.put_in_place(files, !self.is_unnamed)?;
         let mut parents = files.iter().filter_map(|(path, _)| path.parent()).collect::<Vec<_>>();
         parents.sort_unstable();
         parents.dedup();
@@ -97,20 +114,10 @@ impl Disk {
         file.write_all(second).map_err(RecordError::io("write", path))
     }
 
-    /// Waits until the disk has the files; several at once, since it then needs hardly longer than for one.
+    /// Waits until the disk has the files.
     fn sync_files(&self, files: &[(File, &Path)]) -> Result<(), RecordError> {
         files.iter().try_for_each(|(_, path)| self.step(path))?;
-        if self.is_test() {
-            return Ok(());
-        }
-        let sync = |(file, path): &(File, &Path)| file.sync_data().map_err(RecordError::io("bring to the disk", path));
-        let share = files.len().div_ceil(SYNC_THREADS).max(1);
-        std::thread::scope(|scope| {
-            let shares = files.chunks(share).map(|files| scope.spawn(move || files.iter().try_for_each(sync)));
-            let shares = shares.collect::<Vec<_>>();
-            let join = |share: ScopedJoinHandle<_>| share.join().unwrap_or_else(|panic| resume_unwind(panic));
-            shares.into_iter().try_for_each(join)
-        })
+        if self.is_test() { Ok(()) } else { sync_together(files) }
     }
 
     /// In tests, the moment at which the power may fail.
@@ -131,6 +138,65 @@ impl Disk {
     fn is_test(&self) -> bool {
         cfg!(test)
     }
+}
+
+/// Waits until the disk has files of one file system.
+#[cfg(target_os = "linux")]
+fn sync_together(files: &[(File, &Path)]) -> Result<(), RecordError> {
+    match files {
+        [] => Ok(()),
+        [(file, path)] => file.sync_data().map_err(RecordError::io("bring to the disk", path)),
+        [(file, path), ..] => sync_file_system(file, path),
+    }
+}
+
+/// The same, several at once: the disk then needs hardly longer than for one.
+#[cfg(not(target_os = "linux"))]
+fn sync_together(files: &[(File, &Path)]) -> Result<(), RecordError> {
+    let sync = |(file, path): &(File, &Path)| file.sync_data().map_err(RecordError::io("bring to the disk", path));
+    let share = files.len().div_ceil(SYNC_THREADS).max(1);
+    std::thread::scope(|scope| {
+        let shares = files.chunks(share).map(|files| scope.spawn(move || files.iter().try_for_each(sync)));
+        let shares = shares.collect::<Vec<_>>();
+        let join = |share: std::thread::ScopedJoinHandle<_>| {
+            share.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        };
+        shares.into_iter().try_for_each(join)
+    })
+}
+
+/// Waits until the disk has all that was written to the file system of a file: one wait, where each file would have its
+/// own.
+#[cfg(target_os = "linux")]
+fn sync_file_system(file: &File, path: &Path) -> Result<(), RecordError> {
+    rustix::fs::syncfs(file).map_err(|error| RecordError::io("bring to the disk", path)(error.into()))
+}
+
+/// Waits until the disk has all that is in a directory.
+#[cfg(target_os = "linux")]
+fn sync_tree(directory: &Path) -> Result<(), RecordError> {
+    let file = File::open(directory).map_err(RecordError::io("open", directory))?;
+    sync_file_system(&file, directory)
+}
+
+/// Waits until the disk has all that is in a directory: the files, then the directories (where the system can).
+#[cfg(not(target_os = "linux"))]
+fn sync_tree(directory: &Path) -> Result<(), RecordError> {
+    let (mut files, mut dirs, mut open) = (Vec::new(), Vec::new(), vec![directory.to_path_buf()]);
+    while let Some(dir) = open.pop() {
+        for name in list(&dir)? {
+            let entry = dir.join(name);
+            if entry.is_dir() { open.push(entry) } else { files.push(entry) }
+        }
+        dirs.push(dir);
+    }
+    if cfg!(unix) {
+        files.extend(dirs);
+    }
+    // A file of which Windows is to wait has to be open for writing.
+    let open = |path: &'_ PathBuf| OpenOptions::new().read(true).write(path.is_file()).open(path);
+    let opened = files.iter().map(|path| Ok((open(path).map_err(RecordError::io("open", path))?, path.as_path())));
+    sync_together(&opened.collect::<Result<Vec<_>, RecordError>>()?)
 }
 
 /// The file or directory beside `path` that becomes it.

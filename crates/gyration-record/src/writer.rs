@@ -4,7 +4,8 @@
 //! lengths, 3. the checkpoint with the number of rows it belongs to. So whatever the moment of a crash, the metadata
 //! never count a row that is not there, and the checkpoint never one that the metadata do not count. To resume is to
 //! cut back to the checkpoint's rows and to go on. A new recording grows as `NAME.gyr.part` and gets its name at the
-//! first flush: a recording that exists has its scene, its first row and a checkpoint. No clock is read here.
+//! first flush, before which all of it comes to the disk at once: a recording that exists has its scene, its first row
+//! and a checkpoint. No clock is read here.
 //!
 //! Readers that ignore consolidated metadata see a file an array; a crash among the renames of step 2 leaves those, and
 //! nothing else, of two lengths until the run is resumed.
@@ -69,7 +70,7 @@ impl Writer {
     }
 
     pub(crate) fn create_on(
-        disk: Disk,
+        mut disk: Disk,
         path: &Path,
         layout: &Layout,
         attributes: Attributes,
@@ -81,6 +82,7 @@ impl Writer {
         }
         let directory = disk::part_of(path);
         disk::discard(&directory, path)?;
+        disk.is_unnamed = true;
         disk.create_dir(&directory)?;
         disk.create_dir(&directory.join(STATE))?;
         let lock = disk::lock(&directory, path)?;
@@ -351,14 +353,12 @@ impl Writer {
         if self.directory == self.path {
             return Ok(());
         }
-        self.disk.sync_dirs(&[&self.directory])?;
         if self.path.symlink_metadata().is_ok() {
             return Err(RecordError::AlreadyExists { path: self.path.clone() });
         }
-        self.disk.rename(&self.directory, &self.path)?;
+        self.disk.name(&self.directory, &self.path)?;
         self.directory.clone_from(&self.path);
-        let parent = self.path.parent().filter(|parent| !parent.as_os_str().is_empty());
-        self.disk.sync_dirs(&[parent.unwrap_or(Path::new("."))])
+        Ok(())
     }
 
     /// Runs an operation unless an earlier one failed.
