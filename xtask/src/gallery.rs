@@ -1,7 +1,7 @@
 //! The page of the gallery: every scene with its picture, made by running it.
 //!
-//! The words come from the scenes themselves, as `gyration scenes` prints them: a title a scene, indented lines that
-//! say what to look at. So the page cannot tell of another scene than the one that runs.
+//! The words come from the scenes themselves: titles as `gyration scenes` lists them, and what to look at as it stands
+//! at the head of each file. So the page cannot tell of another scene than the one that runs.
 
 use crate::cargo::cargo;
 use crate::root;
@@ -93,7 +93,7 @@ fn list(mut command: Command) -> Result<Vec<ListedScene>, String> {
     if !output.status.success() {
         return Err(format!("`gyration scenes`: {}", String::from_utf8_lossy(&output.stderr)));
     }
-    let entries = entries(&String::from_utf8_lossy(&output.stdout));
+    let entries = entries(&String::from_utf8_lossy(&output.stdout), scene_file);
     if entries.is_empty() { Err("`gyration scenes` lists nothing".into()) } else { Ok(entries) }
 }
 
@@ -102,22 +102,27 @@ pub fn names(program: Command) -> Result<Vec<String>, String> {
     Ok(list(program)?.into_iter().map(|entry| entry.name).collect())
 }
 
-/// Entries from a listing: `name  title`, then indented lines; an empty line ends it.
-fn entries(listing: &str) -> Vec<ListedScene> {
-    let mut entries: Vec<ListedScene> = Vec::new();
-    for line in listing.lines().take_while(|line| !line.is_empty()) {
-        match (line.strip_prefix(' '), entries.last_mut()) {
-            (Some(told), Some(entry)) => {
-                let gap = if entry.text.is_empty() { "" } else { " " };
-                let _ = write!(entry.text, "{gap}{}", told.trim());
-            }
-            _ => {
-                let (name, title) = line.split_once(' ').unwrap_or((line, ""));
-                entries.push(ListedScene { name: name.into(), title: title.trim().into(), text: String::new() });
-            }
-        }
-    }
-    entries
+/// Entries from a listing: `name  title`; an empty line ends it. The file of each tells what to look at.
+fn entries(listing: &str, file: impl Fn(&str) -> String) -> Vec<ListedScene> {
+    let entry = |line: &str| {
+        let (name, title) = line.split_once(' ').unwrap_or((line, ""));
+        let (name, title) = (name.to_owned(), title.trim().to_owned());
+        let text = told(&file(&name), &title);
+        ListedScene { name, title, text }
+    };
+    listing.lines().take_while(|line| !line.is_empty()).map(entry).collect()
+}
+
+/// The comment at the beginning of a file; one that begins with the title goes on after it.
+fn told(file: &str, title: &str) -> String {
+    let comment = file.lines().map_while(|line| line.strip_prefix('#'));
+    let head = comment.map(str::trim).collect::<Vec<_>>().join(" ");
+    head.strip_prefix(title).map_or(head.as_str(), |rest| rest.trim_start_matches(['.', ' '])).to_owned()
+}
+
+/// The file of a scene.
+fn scene_file(name: &str) -> String {
+    std::fs::read_to_string(root().join(format!("scenes/{name}.toml"))).unwrap_or_default()
 }
 
 fn page(entries: &[ListedScene]) -> String {
@@ -140,23 +145,26 @@ mod tests {
 
     #[test]
     fn a_listing_is_read_back() {
-        let listing = "dice         A die thrown\n             Look at it,\n             and again.\n\
-                       rock-2       A block\n\n`gyration run NAME` runs\n";
+        let listing = "dice    A die thrown\nrock-2  A block\n\n`gyration run NAME` runs\n";
+        let files = |name: &str| match name {
+            "dice" => "# A die thrown. Look at it,\n# and again.\n\n# Not this.\ntitle = \"A die thrown\"\n".to_owned(),
+            _ => String::new(),
+        };
         let entry = |name: &str, title: &str, text: &str| ListedScene {
             name: name.into(),
             title: title.into(),
             text: text.into(),
         };
         assert_eq!(
-            entries(listing),
+            entries(listing, files),
             [entry("dice", "A die thrown", "Look at it, and again."), entry("rock-2", "A block", "")]
         );
     }
 
     #[test]
     fn every_scene_has_its_place_on_the_page() {
-        let page = page(&entries("a  First\n   One.\nb  Second\n   Two.\n"));
-        assert!(page.contains("## `a`\n\n**First.** One.\n\n![First](pictures/a.svg)\n\n## `b`"), "{page}");
+        let page = page(&entries("a  First\nb  Second\n", |name| format!("# {name} is told.\n")));
+        assert!(page.contains("## `a`\n\n**First.** a is told.\n\n![First](pictures/a.svg)\n\n## `b`"), "{page}");
         assert!(page.ends_with("![Second](pictures/b.svg)\n"));
     }
 }

@@ -1,5 +1,7 @@
 //! The built-in gallery: scenes that run by their name, compiled into the program.
 
+use crate::read::document;
+
 /// Name and text of each scene, in the order in which they are listed.
 static SCENES: &[(&str, &str)] = &[
     ("dice", include_str!("../../../scenes/dice.toml")),
@@ -85,6 +87,12 @@ pub fn gallery_scene(name: &str) -> Result<&'static str, NotInGallery> {
     find(name).ok_or_else(|| NotInGallery(name.to_owned()))
 }
 
+/// The title of a scene, from its text alone: no body of it is made.
+pub fn gallery_title(text: &str) -> Option<String> {
+    let document = document("", text).ok()?;
+    Some(document.root.get("title")?.text()?.to_owned())
+}
+
 /// The gallery has no such scene.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("the gallery has no scene `{0}`\n  fix: choose one of {names}", names = SCENES.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", "))]
@@ -93,4 +101,17 @@ pub struct NotInGallery(String);
 /// The text of a scene of the gallery.
 pub(crate) fn find(name: &str) -> Option<&'static str> {
     SCENES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+
+    #[test]
+    fn titles_are_those_of_the_scenes() {
+        for (name, text) in SCENES {
+            assert_eq!(gallery_title(text).as_deref(), Some(Scene::open(name, &[]).unwrap().title()), "{name}");
+        }
+    }
 }

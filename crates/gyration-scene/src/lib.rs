@@ -38,7 +38,7 @@ mod unknown;
 pub use assemble::{Built, CellLoad, Packet, Plan, Record, StartingWave, StopAtRest, TRIANGLES, UnitCell, WaveStart};
 pub use error::{ErrorKind, LoadError, NotToml, ReadError, SceneError, SceneErrors};
 pub use file::{Method, Recorded};
-pub use gallery::{NotInGallery, gallery, gallery_scene};
+pub use gallery::{NotInGallery, gallery, gallery_scene, gallery_title};
 pub use overriding::{Override, OverrideValue};
 pub use scene::Scene;
 pub use schema::{schema, schema_of};
