@@ -5,9 +5,8 @@
 //! Φ_m is what the plane's own Φ is, with the exponent m and each U_i per coefficient: of equal parallel faces W is the
 //! potential of one of them at the whole gap.
 
-use super::side::Potential;
 use crate::contact::{Adhesion, LawKind};
-use crate::surface::{MomentPlan, Moments, request};
+use crate::surface::{MomentPlan, request};
 
 /// What acts along the normal beside what places the plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,10 +50,5 @@ impl PullTerm {
     /// β d₀^m.
     pub fn coefficient(&self) -> f64 {
         self.strength * libm::pow(self.reference_gap, self.exponent)
-    }
-
-    /// U of a side, from the moments of the plan `values`.
-    pub fn potential(&self, moments: &[Moments]) -> Potential {
-        Potential::new(self.coefficient(), self.exponent, self.places.map(|place| &moments[place]))
     }
 }

@@ -61,6 +61,11 @@ pub(super) struct Carried {
     pub pull: Vec4,
 }
 
+/// U of a side, from the moments of the plan of adhesion.
+fn potential(law: &PullTerm, moments: &[Moments]) -> Potential {
+    Potential::new(law.coefficient(), law.exponent, law.places.map(|place| &moments[place]))
+}
+
 impl Term {
     /// ±λ of a side.
     pub fn weight(&self, side: usize) -> f64 {
@@ -69,7 +74,7 @@ impl Term {
 
     /// At a plane, from the moments of both sides.
     fn new(law: &PullTerm, halves: [&Half; 2], moments: [&[Moments]; 2]) -> Self {
-        let potentials = moments.map(|own| law.potential(own));
+        let potentials = moments.map(|own| potential(law, own));
         let values = potentials.each_ref().map(|potential| potential.value);
         let mean = Mean::of(values, halves.map(|half| half.root_share), law.exponent);
         Self { law: *law, mean, potentials }
@@ -113,7 +118,7 @@ impl Carried {
 impl Pulled {
     /// (f | M)/σ on a part of a side, given the moments of adhesion over it and its potential.
     pub fn on_part(&self, side: usize, normal: &Vec3, moments: &[Moments], own: &Potential) -> Mat34 {
-        let pull = |term: &Term| term.weight(side) * term.law.potential(moments).first;
+        let pull = |term: &Term| term.weight(side) * potential(&term.law, moments).first;
         let pull: Vec4 = self.terms.iter().flatten().map(pull).sum();
         self.carried[side].on_part(normal, &self.turn, &pull, own)
     }
