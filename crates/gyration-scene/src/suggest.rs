@@ -1,15 +1,25 @@
-//! Did-you-mean: the known word nearest to a misspelt one.
+//! Did-you-mean: the known word nearest to a misspelt one, or the one of which it is the beginning.
 
-/// The nearest of the known words, if it is near enough to be meant.
-///
+/// More words than a person can have in mind; a file may have thousands of names, and as many that are not known.
+const COMPARED: usize = 1000;
+
+/// The nearest of the known words, if it is near enough to be meant; else the only one that begins with the word.
+pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str> + Clone) -> Option<&'a str> {
+    misspelt(word, known.clone()).or_else(|| begun(word, known))
+}
+
+/// The only one of the known words that begins with these letters.
+fn begun<'a>(letters: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let mut longer = known.into_iter().take(COMPARED).filter(|candidate| candidate.starts_with(letters));
+    longer.next().filter(|_| letters.chars().count() > 2 && longer.next().is_none())
+}
+
 /// Distance: optimal string alignment (insert, drop, replace, swap neighbours). A third of the word's letters may
 /// differ, and one letter in any word longer than two.
-pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+fn misspelt<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let length = word.chars().count();
     // Longer than any key or name that is worth comparing; the cost grows with the square.
     const LONGEST: usize = 64;
-    // More than a person can have in mind; a file may have thousands of names, and as many that are not known.
-    const COMPARED: usize = 1000;
     if length > LONGEST {
         return None;
     }
@@ -51,6 +61,15 @@ mod tests {
         assert_eq!(nearest("postion", keys), Some("position"));
         assert_eq!(nearest("nmae", keys), Some("name"));
         assert_eq!(nearest("colour", keys), None);
+    }
+
+    #[test]
+    fn the_beginning_of_a_word_is_recognised_if_it_is_of_one_alone() {
+        let keys = ["youngs_modulus", "poissons_ratio", "position", "mu"];
+        assert_eq!(nearest("young", keys), Some("youngs_modulus"));
+        assert_eq!(nearest("poisson", keys), Some("poissons_ratio"));
+        assert_eq!(nearest("po", keys), None);
+        assert_eq!(nearest("pos", ["poissons_ratio", "position", "posture"]), None);
     }
 
     #[test]

@@ -45,6 +45,27 @@ fn materials_have_the_moduli_that_the_file_gives() {
             Material::StVenantKirchhoff(StVenantKirchhoff { lambda: -2.0, mu: 3.0 }),
         ),
         ("hencky = { shear = 2, bulk = 5 }", Material::Hencky(Hencky { shear: 2.0, bulk: 5.0 })),
+        // E = 2μ(1 + ν), with μ = 2: λ = 2 at ν = 1/4, K = 5 at ν = 1/4 of E = 7.5.
+        (
+            "neo_hookean_log = { youngs_modulus = \"5 Pa\", poissons_ratio = 0.25 }",
+            Material::NeoHookeanLog(NeoHookeanLog { mu: 2.0, lambda: 2.0 }),
+        ),
+        (
+            "st_venant_kirchhoff = { youngs_modulus = 2, poissons_ratio = -0.5 }",
+            Material::StVenantKirchhoff(StVenantKirchhoff { lambda: -1.0, mu: 2.0 }),
+        ),
+        (
+            "hencky = { youngs_modulus = 7.5, poissons_ratio = 0.25 }",
+            Material::Hencky(Hencky { shear: 3.0, bulk: 5.0 }),
+        ),
+        (
+            "neo_hookean = { youngs_modulus = 24, poissons_ratio = 0.5 }",
+            Material::MooneyRivlin(MooneyRivlin { c1: 4.0, c2: 0.0, bulk: None }),
+        ),
+        (
+            "neo_hookean = { youngs_modulus = 7.5, poissons_ratio = 0.25 }",
+            Material::MooneyRivlin(MooneyRivlin { c1: 1.5, c2: 0.0, bulk: Some(5.0) }),
+        ),
         ("orthogonality = { kappa = 2 }", Material::StVenantKirchhoff(StVenantKirchhoff { lambda: 0.0, mu: 8.0 })),
     ];
     for (written, material) in rows {

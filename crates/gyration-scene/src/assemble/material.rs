@@ -1,8 +1,10 @@
 //! Materials: from what the file calls them to energies; notes those without a stable rest state.
 
+use super::moduli::{Moduli, WrittenModuli};
 use crate::check::Reporter;
 use crate::file::Material as Written;
 use crate::key::Key;
+use crate::quantity::{NonNegative, Positive, Pressure};
 use gyration::material::{Fung, Hencky, Material, MooneyRivlin, NeoHookeanLog, Ogden, OgdenTerm, StVenantKirchhoff};
 
 /// The material at a key.
@@ -14,7 +16,9 @@ pub(super) fn material(written: &Written, key: &Key, reporter: &mut Reporter<'_>
             ("mooney_rivlin", Material::MooneyRivlin(made))
         }
         Written::NeoHookean(it) => {
-            let made = MooneyRivlin::neo_hookean(it.shear.value(), it.bulk.map(|bulk| bulk.value()));
+            let own = [("shear", value(it.shear)), ("bulk", it.bulk.map(Positive::value))];
+            let moduli = moduli(key, "neo_hookean", own, (it.youngs_modulus, it.poissons_ratio), reporter)?;
+            let made = MooneyRivlin::neo_hookean(moduli.shear(), moduli.bulk());
             ("neo_hookean", Material::MooneyRivlin(made))
         }
         Written::Ogden(it) => ("ogden", Material::Ogden(ogden(it, &key.key("ogden"), reporter)?)),
@@ -23,20 +27,46 @@ pub(super) fn material(written: &Written, key: &Key, reporter: &mut Reporter<'_>
             ("fung", Material::Fung(Fung { shear: it.shear.value(), exponent: it.exponent.0, bulk }))
         }
         Written::NeoHookeanLog(it) => {
-            let made = NeoHookeanLog { mu: it.mu.value(), lambda: it.lambda.value() };
+            let own = [("mu", value(it.mu)), ("lambda", value(it.lambda))];
+            let moduli = moduli(key, "neo_hookean_log", own, (it.youngs_modulus, it.poissons_ratio), reporter)?;
+            let made = NeoHookeanLog { mu: moduli.shear(), lambda: moduli.lambda() };
             ("neo_hookean_log", Material::NeoHookeanLog(made))
         }
         Written::StVenantKirchhoff(it) => {
-            let made = StVenantKirchhoff { lambda: it.lambda.0, mu: it.mu.value() };
+            let own = [("mu", value(it.mu)), ("lambda", it.lambda.map(|lambda| lambda.0))];
+            let moduli = moduli(key, "st_venant_kirchhoff", own, (it.youngs_modulus, it.poissons_ratio), reporter)?;
+            let made = StVenantKirchhoff { lambda: moduli.lambda(), mu: moduli.shear() };
             ("st_venant_kirchhoff", Material::StVenantKirchhoff(made))
         }
-        Written::Hencky(it) => ("hencky", Material::Hencky(Hencky { shear: it.shear.value(), bulk: it.bulk.value() })),
+        Written::Hencky(it) => {
+            let own = [("shear", value(it.shear)), ("bulk", value(it.bulk))];
+            let moduli = moduli(key, "hencky", own, (it.youngs_modulus, it.poissons_ratio), reporter)?;
+            ("hencky", Material::Hencky(Hencky { shear: moduli.shear(), bulk: moduli.bulk().unwrap_or(0.0) }))
+        }
         Written::Orthogonality(it) => {
             let made = StVenantKirchhoff::orthogonality(it.kappa.value());
             ("orthogonality", Material::StVenantKirchhoff(made))
         }
     };
     sound(made, &key.key(name), reporter)
+}
+
+fn value(modulus: Option<NonNegative<Pressure>>) -> Option<f64> {
+    modulus.map(NonNegative::value)
+}
+
+/// The two moduli of a material of this name, from its own or from E and ν.
+fn moduli(
+    key: &Key,
+    name: &str,
+    own: [(&'static str, Option<f64>); 2],
+    (youngs_modulus, poissons_ratio): (Option<Positive<Pressure>>, Option<f64>),
+    reporter: &mut Reporter<'_>,
+) -> Option<Moduli> {
+    let youngs_modulus = youngs_modulus.map(Positive::value);
+    let (may_be_incompressible, may_be_auxetic) = (name == "neo_hookean", name != "neo_hookean_log");
+    let key = &key.key(name);
+    WrittenModuli { key, own, may_be_incompressible, may_be_auxetic, youngs_modulus, poissons_ratio }.read(reporter)
 }
 
 /// The material, if it has a stable rest state.

@@ -21,6 +21,7 @@ mod kind;
 mod lattice;
 mod mass;
 mod material;
+mod moduli;
 mod motor;
 mod orientation;
 mod overlap;

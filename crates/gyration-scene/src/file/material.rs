@@ -1,6 +1,7 @@
 //! `affine.material`: what a deformable body is made of, an energy of its placement gradient.
 //!
-//! With `bulk` a material that has one is compressible, without it is incompressible: det P = 1.
+//! With `bulk` a material that has one is compressible, without it is incompressible: det P = 1. Where two moduli make
+//! a material, Young's modulus E and Poisson's ratio ν may take their place, those of small strains.
 
 use crate::quantity::{NonNegative, Positive, Pressure};
 use schemars::JsonSchema;
@@ -46,10 +47,17 @@ pub struct MooneyRivlin {
 #[serde(deny_unknown_fields)]
 pub struct NeoHookean {
     /// Shear modulus μ (Pa).
-    pub shear: NonNegative<Pressure>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shear: Option<NonNegative<Pressure>>,
     /// Bulk modulus K (Pa); incompressible without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bulk: Option<Positive<Pressure>>,
+    /// Young's modulus E (Pa), with `poissons_ratio` in the place of `shear` and `bulk`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus: Option<Positive<Pressure>>,
+    /// Poisson's ratio ν, above −1, at most 0.5: incompressible.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poissons_ratio: Option<f64>,
 }
 
 /// Ogden; shear modulus ½ Σ mu·alpha.
@@ -85,9 +93,17 @@ pub struct Fung {
 #[serde(deny_unknown_fields)]
 pub struct NeoHookeanLog {
     /// Lamé's μ, the shear modulus (Pa).
-    pub mu: NonNegative<Pressure>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mu: Option<NonNegative<Pressure>>,
     /// Lamé's λ (Pa).
-    pub lambda: NonNegative<Pressure>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lambda: Option<NonNegative<Pressure>>,
+    /// Young's modulus E (Pa), with `poissons_ratio` in the place of `mu` and `lambda`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus: Option<Positive<Pressure>>,
+    /// Poisson's ratio ν, from 0 to below 0.5.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poissons_ratio: Option<f64>,
 }
 
 /// St Venant–Kirchhoff: soft, in the end unstable, under strong compression.
@@ -95,9 +111,17 @@ pub struct NeoHookeanLog {
 #[serde(deny_unknown_fields)]
 pub struct StVenantKirchhoff {
     /// Lamé's λ (Pa), at least −2/3 mu.
-    pub lambda: Pressure,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lambda: Option<Pressure>,
     /// Lamé's μ, the shear modulus (Pa).
-    pub mu: NonNegative<Pressure>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mu: Option<NonNegative<Pressure>>,
+    /// Young's modulus E (Pa), with `poissons_ratio` in the place of `mu` and `lambda`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus: Option<Positive<Pressure>>,
+    /// Poisson's ratio ν, above −1 and below 0.5.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poissons_ratio: Option<f64>,
 }
 
 /// Hencky: quadratic in the logarithmic strain.
@@ -105,9 +129,17 @@ pub struct StVenantKirchhoff {
 #[serde(deny_unknown_fields)]
 pub struct Hencky {
     /// Shear modulus μ (Pa).
-    pub shear: NonNegative<Pressure>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shear: Option<NonNegative<Pressure>>,
     /// Bulk modulus K (Pa).
-    pub bulk: NonNegative<Pressure>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bulk: Option<NonNegative<Pressure>>,
+    /// Young's modulus E (Pa), with `poissons_ratio` in the place of `shear` and `bulk`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus: Option<Positive<Pressure>>,
+    /// Poisson's ratio ν, above −1 and below 0.5.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poissons_ratio: Option<f64>,
 }
 
 /// The orthogonality energy of affine body dynamics: St Venant–Kirchhoff with λ = 0, μ = 4κ.
