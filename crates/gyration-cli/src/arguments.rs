@@ -47,6 +47,8 @@ pub enum Command {
     Resistance(ResistanceArguments),
     /// List the built-in gallery, or print one of its scenes
     Scenes(Scenes),
+    /// Write a commented scene to start from, and the schema by which editors complete its keys
+    New(New),
     /// Make a scene of a robot's file, URDF or MJCF; what has no counterpart is listed
     Import(ImportArguments),
     /// Turn a recording into a table or a file for other programs
@@ -213,6 +215,14 @@ pub struct ResistanceArguments {
     pub frequency: Option<f64>,
 }
 
+/// `gyration new`
+#[derive(Debug, Args)]
+pub struct New {
+    /// Name of the scene, with or without a folder and .toml
+    #[arg(value_name = "NAME", default_value = "scene", value_hint = ValueHint::FilePath)]
+    pub name: PathBuf,
+}
+
 /// `gyration scenes`
 #[derive(Debug, Args)]
 pub struct Scenes {
@@ -246,9 +256,9 @@ pub struct Export {
     /// Directory of the recording
     #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub recording: PathBuf,
-    /// What to write
+    /// What to write [default: by the ending of -o]
     #[arg(long)]
-    pub format: ExportFormat,
+    pub format: Option<ExportFormat>,
     /// File to write; - writes csv to stdout [default: STEM.csv, .npz, .pvd or .glb in the current folder]
     #[arg(short, long, value_name = "PATH", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,

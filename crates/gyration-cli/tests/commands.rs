@@ -19,6 +19,25 @@ fn gallery_is_listed_with_titles_and_printed_verbatim() {
 }
 
 #[test]
+fn a_new_scene_runs_as_it_is_and_names_the_schema_beside_it() {
+    let sandbox = Sandbox::new();
+    let said = sandbox.done(&["new", "my scene"]).stderr;
+    assert!(said.contains("`gyration run 'my scene.toml'`"), "{said}");
+    assert_eq!(sandbox.names(), ["gyration.schema.json", "my scene.toml"]);
+    let text = std::fs::read_to_string(sandbox.path("my scene.toml")).unwrap();
+    assert!(text.starts_with("#:schema gyration.schema.json\n") && text.contains("title = \"my scene\""), "{text}");
+    let schema = std::fs::read_to_string(sandbox.path("gyration.schema.json")).unwrap();
+    assert_eq!(schema, sandbox.done(&["schema"]).stdout);
+    let run = sandbox.done(&["run", "my scene.toml"]).stderr;
+    assert!(run.contains("came to rest") && !run.contains("warning") && !run.contains("note"), "{run}");
+    sandbox.refused(2, &["new", "two\nlines"]);
+    // What is there stays.
+    assert!(sandbox.refused(2, &["new", "my scene.toml"]).stderr.contains("is there already"));
+    sandbox.done(&["new"]);
+    assert!(sandbox.path("scene.toml").exists());
+}
+
+#[test]
 fn schema_is_json() {
     let schema: Value = serde_json::from_str(&Sandbox::new().done(&["schema"]).stdout).unwrap();
     assert!(schema["properties"]["body"].is_object());

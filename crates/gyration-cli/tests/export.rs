@@ -50,6 +50,19 @@ fn exports_have_default_names() {
 }
 
 #[test]
+fn the_name_of_a_file_tells_its_format() {
+    let sandbox = recorded();
+    for name in ["a.csv", "a.npz", "a.pvd", "a.glb"] {
+        sandbox.done(&["export", "ball.gyr", "-o", name]);
+        assert!(sandbox.path(name).exists(), "{name}");
+    }
+    for (arguments, told) in [(&[][..], "no format is given"), (&["-o", "a.xyz"], "the name a.xyz does not tell")] {
+        let said = sandbox.refused(2, &[&["export", "ball.gyr"], arguments].concat()).stderr;
+        assert!(said.contains(told) && said.contains("fix: give --format csv"), "{said}");
+    }
+}
+
+#[test]
 fn what_cannot_be_exported_is_refused() {
     let sandbox = recorded();
     let formats = ["csv", "npz", "vtk", "gltf"];

@@ -8,6 +8,7 @@ mod completions;
 mod export;
 mod import;
 mod modes;
+mod new;
 mod plot;
 #[cfg(feature = "view")]
 mod report;
@@ -35,6 +36,7 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::Bands(arguments) => bands::execute(&arguments),
         Command::Resistance(arguments) => resistance::execute(&arguments),
         Command::Scenes(arguments) => scenes::execute(&arguments),
+        Command::New(arguments) => new::execute(&arguments),
         Command::Import(arguments) => import::execute(&arguments),
         Command::Export(arguments) => export::execute(&arguments),
         Command::Plot(arguments) => plot::execute(&arguments),

@@ -6,6 +6,7 @@ use crate::arguments::{Export, ExportFormat};
 use crate::error::{CliError, code};
 use crate::input::stem;
 use crate::output;
+use clap::ValueEnum as _;
 use gyration_record::{RecordError, Recording, cannot_write, export, replace_file};
 use gyration_sim::pairs_csv;
 use std::fs::File;
@@ -14,11 +15,12 @@ use std::path::{Path, PathBuf};
 
 /// Writes the export.
 pub fn execute(arguments: &Export) -> Result<u8, CliError> {
-    let Export { recording: source, format, every, pairs, .. } = arguments;
-    if every.is_some() && *format != ExportFormat::Vtk {
+    let Export { recording: source, every, pairs, output, .. } = arguments;
+    let format = arguments.format.map_or_else(|| by_ending(output.as_deref()), Ok)?;
+    if every.is_some() && format != ExportFormat::Vtk {
         return Err(CliError::arguments("--every is for vtk only", "leave it out; gltf is thinned to what is seen"));
     }
-    if *pairs && *format != ExportFormat::Csv {
+    if *pairs && format != ExportFormat::Csv {
         let fix = "leave it out: npz has the pairs of a recording by itself, as pairs/first, pairs/force, …";
         return Err(CliError::arguments("--pairs is for csv only", fix));
     }
@@ -28,10 +30,10 @@ pub fn execute(arguments: &Export) -> Result<u8, CliError> {
         return Err(CliError::arguments("the recording does not have what acts between two", fix));
     }
     let table = if *pairs { Table::Pairs } else { Table::Samples };
-    let ending = if *pairs { "pairs.csv" } else { ending(*format) };
-    let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.{ending}", stem(source))));
+    let ending = if *pairs { "pairs.csv" } else { ending(format) };
+    let path = output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.{ending}", stem(source))));
     if path == Path::new("-") {
-        return to_stdout(&recording, *format, table);
+        return to_stdout(&recording, format, table);
     }
     let what = match format {
         ExportFormat::Csv => {
@@ -54,6 +56,20 @@ pub fn execute(arguments: &Export) -> Result<u8, CliError> {
     };
     output::say(&format!("wrote {} ({what})", path.display()));
     Ok(code::DONE)
+}
+
+/// The format that the name of a file asks for.
+fn by_ending(output: Option<&Path>) -> Result<ExportFormat, CliError> {
+    let formats = ExportFormat::value_variants();
+    let of_path =
+        |path: &Path| formats.iter().copied().find(|format| path.extension() == Some(ending(*format).as_ref()));
+    output.and_then(of_path).ok_or_else(|| {
+        let problem = match output {
+            Some(path) => format!("the name {} does not tell a format", path.display()),
+            None => "no format is given".to_owned(),
+        };
+        CliError::arguments(problem, "give --format csv, npz, vtk or gltf, or -o with .csv, .npz, .pvd or .glb")
+    })
 }
 
 fn ending(format: ExportFormat) -> &'static str {
