@@ -19,6 +19,9 @@ pub struct ListedScene {
     text: String,
 }
 
+/// The scene that moves in the README.
+const MOVING: &str = "climber";
+
 /// The page of the gallery.
 fn page_path() -> PathBuf {
     root().join("docs/gallery.md")
@@ -76,6 +79,11 @@ fn draw(steps: &mut Steps, name: &str) {
     plot.arg("plot").arg(&recording).args(["strip", "-o"]).arg(picture_path(name));
     if steps.run(&format!("run {name}"), &mut run) {
         steps.run(&format!("draw {name}"), &mut plot);
+        if name == MOVING {
+            let mut motion = program();
+            motion.arg("plot").arg(&recording).args(["motion", "-o"]).arg(picture_path(&format!("{MOVING}-motion")));
+            steps.run(&format!("draw {name} as it moves"), &mut motion);
+        }
     }
 }
 

@@ -130,6 +130,30 @@ fn a_body_that_flies_off_is_named_at_the_edge_and_makes_no_other_small() {
 }
 
 #[test]
+fn a_motion_shows_one_time_after_the_other_and_one_of_them_where_nothing_moves() {
+    let sandbox = recorded(&balls(""));
+    let told = sandbox.done(&["plot", "scene.gyr", "motion", "-o", "-"]).stdout;
+    let groups = told.matches("<animate attributeName=\"visibility\"").count();
+    assert!(groups > 10 && told.matches("<g visibility=\"visible\">").count() == 1, "{groups}");
+    assert!(told.contains("real time") || told.contains("slowed") || told.contains("times as fast"), "{told:.300}");
+    // Each is seen from when the one before is not.
+    let times: Vec<(f64, f64)> = told
+        .split("keyTimes=\"")
+        .skip(1)
+        .map(|rest| {
+            let times: Vec<f64> =
+                rest.split('"').next().unwrap().split(';').map(|time| time.parse().unwrap()).collect();
+            if times.len() == 3 { (times[1], times[2]) } else { (times[0], times[1]) }
+        })
+        .collect();
+    assert!(times[1..groups - 1].windows(2).all(|pair| pair[0].1 == pair[1].0), "{times:?}");
+    for file in ["motion.png", "motion.pdf"] {
+        sandbox.done(&["plot", "scene.gyr", "motion", "-o", file]);
+        assert!(std::fs::metadata(sandbox.path(file)).unwrap().len() > 1000, "{file}");
+    }
+}
+
+#[test]
 fn laws_on_a_support_with_a_shape_are_drawn() {
     let sandbox = Sandbox::new();
     sandbox.write(

@@ -5,7 +5,7 @@
 use crate::chart::frame::{self, BELOW, Content, NAME_SIZE, words_at};
 use crate::chart::{Chart, LEGEND_SIZE, Legend, ShapeChart, Shapes};
 use crate::draw::{Anchor, Format, Label, Page, Rect, Text, color, font};
-use crate::strip::Strip;
+use crate::strip::{Motion, Strip};
 
 /// Width of a page [pt]: fits between the margins of A4 and letter paper.
 const WIDTH: f64 = 540.0;
@@ -29,15 +29,17 @@ pub enum Panel {
     ShapeChart(ShapeChart),
     /// Outlines at successive times.
     Strip(Strip),
+    /// Outlines that move.
+    Motion(Motion),
 }
 
 impl Panel {
-    /// The chart, unless it is a strip.
+    /// The chart, unless it shows bodies.
     fn chart(&self) -> Option<&Chart> {
         match self {
             Self::Chart(chart) => Some(chart),
             Self::ShapeChart(field) => Some(&field.chart),
-            Self::Strip(_) => None,
+            Self::Strip(_) | Self::Motion(_) => None,
         }
     }
 
@@ -76,15 +78,17 @@ impl Figure {
         let mut drawing = Page::new(WIDTH, 0.0, self.title.clone());
         let mut y = self.draw_title(&mut drawing);
         for (index, panel) in self.panels.iter().enumerate() {
-            if let Panel::Strip(strip) = panel {
-                let area = Rect { x: MARGIN, y: y + MARGIN, width: WIDTH - 2.0 * MARGIN, height: 0.0 };
-                y = strip.draw(&mut drawing, area) + MARGIN;
-            } else if let Some(chart) = panel.chart() {
-                let next = self.panels.get(index + 1).and_then(Panel::chart);
-                let with_words = next.is_none_or(|next| next.x != chart.x);
-                let content = Content { chart, shapes: panel.shapes(), with_words };
-                y = draw_chart(&content, &mut drawing, &edges, y);
-            }
+            let area = Rect { x: MARGIN, y: y + MARGIN, width: WIDTH - 2.0 * MARGIN, height: 0.0 };
+            y = match panel {
+                Panel::Strip(strip) => strip.draw(&mut drawing, area) + MARGIN,
+                Panel::Motion(motion) => motion.draw(&mut drawing, area) + MARGIN,
+                Panel::Chart(chart) | Panel::ShapeChart(ShapeChart { chart, .. }) => {
+                    let next = self.panels.get(index + 1).and_then(Panel::chart);
+                    let with_words = next.is_none_or(|next| next.x != chart.x);
+                    let content = Content { chart, shapes: panel.shapes(), with_words };
+                    draw_chart(&content, &mut drawing, &edges, y)
+                }
+            };
         }
         drawing.height = (y + 0.5 * MARGIN).ceil();
         drawing

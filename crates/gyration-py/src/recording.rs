@@ -249,8 +249,8 @@ impl Recording {
         py.import("xarray")?.call_method("Dataset", (), Some(&keywords))
     }
 
-    /// A picture of quantities by name: ``overview``, ``strip``, ``height``, ``gap``, ``stretch``, ``forces``,
-    /// ``energy``, ``stroke``, ``distance``, ``cost``, ``drive``, ``laws``; of all there is without a name.
+    /// A picture of quantities by name: ``overview``, ``strip``, ``motion``, ``height``, ``gap``, ``stretch``,
+    /// ``forces``, ``energy``, ``stroke``, ``distance``, ``cost``, ``drive``, ``laws``; of all there is without a name.
     /// ``measures`` are the two of ``stroke``.
     #[pyo3(signature = (*what, measures=None))]
     fn plot(&self, py: Python<'_>, what: Vec<String>, measures: Option<Vec<String>>) -> PyResult<Picture> {

@@ -111,6 +111,23 @@ pub enum Mark {
     Path(Path),
     /// A label.
     Text(Text),
+    /// What is seen for a while.
+    Moment(Moment),
+}
+
+/// Marks that are seen for a while, again and again.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moment {
+    /// The marks.
+    pub marks: Vec<Mark>,
+    /// When they are first and last seen, as parts of the whole.
+    pub begin: f64,
+    /// See `begin`.
+    pub end: f64,
+    /// How long the whole takes [s].
+    pub lasts: f64,
+    /// Whether it is seen where nothing moves.
+    pub is_still: bool,
 }
 
 /// A page.
@@ -130,6 +147,15 @@ impl Page {
     /// An empty page.
     pub fn new(width: f64, height: f64, title: impl Into<String>) -> Self {
         Self { width, height, title: title.into(), marks: Vec::new() }
+    }
+
+    /// What is seen where nothing moves.
+    pub(super) fn still(&self) -> impl Iterator<Item = &Mark> {
+        self.marks.iter().flat_map(|mark| match mark {
+            Mark::Moment(moment) if moment.is_still => moment.marks.as_slice(),
+            Mark::Moment(_) => &[],
+            mark => std::slice::from_ref(mark),
+        })
     }
 
     /// Draws one open line.

@@ -17,4 +17,4 @@ pub use color::Color;
 pub use format::Format;
 pub use geometry::{Point, Rect};
 pub use label::Label;
-pub use marks::{Anchor, Mark, Page, Path, Stroke, Text};
+pub use marks::{Anchor, Mark, Moment, Page, Path, Stroke, Text};

@@ -14,10 +14,11 @@ const COMPRESSION: u8 = 6;
 /// The bytes of the PDF file.
 pub fn render(drawing: &Page) -> Vec<u8> {
     let mut page = PdfPage { content: String::new(), height: drawing.height, opacities: Vec::new() };
-    for mark in &drawing.marks {
+    for mark in drawing.still() {
         match mark {
             Mark::Path(path) => page.path(path),
             Mark::Text(text) => page.text(text),
+            Mark::Moment(_) => {}
         }
     }
     let stream = miniz_oxide::deflate::compress_to_vec_zlib(page.content.as_bytes(), COMPRESSION);

@@ -20,10 +20,11 @@ pub fn render(drawing: &Page) -> Vec<u8> {
     let Some(pixmap) = Pixmap::new(width, height) else { return Vec::new() };
     let mut canvas = Canvas { pixmap, transform: Transform::from_scale(scale, scale), mask: None };
     canvas.pixmap.fill(tiny_skia::Color::WHITE);
-    for mark in &drawing.marks {
+    for mark in drawing.still() {
         match mark {
             Mark::Path(path) => canvas.path(path),
             Mark::Text(text) => canvas.text(text),
+            Mark::Moment(_) => {}
         }
     }
     canvas.pixmap.encode_png().unwrap_or_default()

@@ -3,7 +3,7 @@
 use super::color::Color;
 use super::geometry::{Point, Rect};
 use super::label::{Label, Script};
-use super::marks::{Anchor, Mark, Page, Path, Stroke, Text};
+use super::marks::{Anchor, Mark, Moment, Page, Path, Stroke, Text};
 use std::fmt::Write as _;
 
 /// Families in the order of preference; the last is generic.
@@ -26,20 +26,53 @@ pub fn render(drawing: &Page) -> String {
             "<clipPath id=\"c{index}\"><rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/></clipPath>\n"
         );
     }
-    for mark in &drawing.marks {
-        match mark {
-            Mark::Path(path) => write_path(&mut svg, path, &clips),
-            Mark::Text(text) => write_text(&mut svg, text),
-        }
-    }
+    write_marks(&mut svg, &drawing.marks, &clips);
     svg += "</svg>\n";
     svg
+}
+
+fn write_marks(svg: &mut String, marks: &[Mark], clips: &[Rect]) {
+    for mark in marks {
+        match mark {
+            Mark::Path(path) => write_path(svg, path, clips),
+            Mark::Text(text) => write_text(svg, text),
+            Mark::Moment(moment) => write_moment(svg, moment, clips),
+        }
+    }
+}
+
+/// A group that is seen for a while, by SMIL: it moves in an image too, where no script runs.
+fn write_moment(svg: &mut String, moment: &Moment, clips: &[Rect]) {
+    let Moment { marks, begin, end, lasts, is_still } = moment;
+    let mut steps = vec![(*begin, "visible")];
+    if *begin > 0.0 {
+        steps.insert(0, (0.0, "hidden"));
+    }
+    if *end < 1.0 {
+        steps.push((*end, "hidden"));
+    }
+    let values = steps.iter().map(|(_, value)| *value).collect::<Vec<_>>().join(";");
+    let times = steps.iter().map(|(time, _)| format!("{time:.5}")).collect::<Vec<_>>().join(";");
+    let visibility = if *is_still { "visible" } else { "hidden" };
+    let lasts = number(*lasts);
+    // Writing to a string does not fail.
+    let _ = writeln!(
+        svg,
+        "<g visibility=\"{visibility}\"><animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"{lasts}s\" \
+         repeatCount=\"indefinite\" values=\"{values}\" keyTimes=\"{times}\"/>"
+    );
+    write_marks(svg, marks, clips);
+    *svg += "</g>\n";
 }
 
 /// The different clips, in the order of their first use.
 fn clips(drawing: &Page) -> Vec<Rect> {
     let mut clips: Vec<Rect> = Vec::new();
-    for mark in &drawing.marks {
+    let marks = drawing.marks.iter().flat_map(|mark| match mark {
+        Mark::Moment(moment) => moment.marks.as_slice(),
+        mark => std::slice::from_ref(mark),
+    });
+    for mark in marks {
         if let Mark::Path(Path { clip: Some(clip), .. }) = mark
             && !clips.contains(clip)
         {

@@ -20,7 +20,7 @@ use crate::draw::Format;
 use crate::error::PlotError;
 use crate::figure::{Figure, Panel};
 use crate::recorded::RecordedScene;
-use crate::strip::Strip;
+use crate::strip::{Motion, Strip};
 use gyration_record::{Recording, write_file};
 use gyration_scene::Scene;
 use gyration_sim::replay::{Replay, ReplayError};
@@ -82,6 +82,7 @@ fn panels(recorded: &RecordedScene, quantity: PlotQuantity, measures: &[String])
     let charts = match quantity {
         PlotQuantity::Overview => return overview(recorded),
         PlotQuantity::Strip => return Ok(vec![Panel::Strip(Strip::of(recorded)?)]),
+        PlotQuantity::Motion => return Ok(vec![Panel::Motion(Motion::of(recorded)?)]),
         PlotQuantity::Laws => return laws_of(recorded.recording),
         PlotQuantity::Height => vec![motion::height(recorded)?],
         PlotQuantity::Gap => vec![motion::gap(recorded)?],

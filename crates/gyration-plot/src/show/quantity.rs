@@ -9,6 +9,8 @@ pub enum PlotQuantity {
     Overview,
     /// Outlines at successive times.
     Strip,
+    /// Outlines that move.
+    Motion,
     /// Height of the centres over time.
     Height,
     /// Smallest distance to a support over time.
@@ -33,9 +35,10 @@ pub enum PlotQuantity {
 
 impl PlotQuantity {
     /// All of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Overview,
         Self::Strip,
+        Self::Motion,
         Self::Height,
         Self::Gap,
         Self::Stretch,
@@ -63,6 +66,9 @@ impl PlotQuantity {
             Self::Overview => ("overview", "All that the recording has"),
             Self::Strip => {
                 ("strip", "Outlines at successive times, from the side; bodies that spin on the spot from above")
+            }
+            Self::Motion => {
+                ("motion", "The same as they move, in SVG: a picture that browsers and readers of Markdown play")
             }
             Self::Height => ("height", "Heights of the centres of mass"),
             Self::Gap => ("gap", "Smallest distances to a support or another body"),

@@ -61,43 +61,80 @@ struct Probe {
     poses: Vec<Pose>,
 }
 
-impl Strip {
-    /// The strip of a recording.
-    ///
-    /// # Errors
-    /// [`PlotError`] where it cannot be read or has no samples.
-    pub fn of(recorded: &RecordedScene) -> Result<Self, PlotError> {
+/// A motion as it is seen from one side.
+struct Watched<'a> {
+    recorded: &'a RecordedScene<'a>,
+    probes: Vec<Probe>,
+    strays: Strays,
+    view: View,
+    /// The probe with which the picture ends.
+    last: usize,
+}
+
+impl<'a> Watched<'a> {
+    fn of(recorded: &'a RecordedScene<'a>) -> Result<Self, PlotError> {
         recorded.span()?;
         let probes = probes(recorded)?;
         let drawn = recorded.bodies.len().min(MOST_BODIES);
         let ways: Vec<Vec<Vec3>> = (0..drawn).map(|body| way(body, &probes)).collect();
         let strays = strays(&ways, &recorded.bodies[..drawn].iter().map(|body| body.size).collect::<Vec<_>>());
         let view = View::of(&motion(recorded, &probes, &strays), recorded.up());
-        let moving = until_rest(recorded, &probes);
-        let frames = |count: usize| -> Vec<Outlines> {
-            evenly(count, moving + 1).map(|index| frame(recorded, &probes[index], &view)).collect()
-        };
+        let last = until_rest(recorded, &probes);
+        Ok(Self { recorded, probes, strays, view, last })
+    }
+
+    /// So many times, evenly.
+    fn frames(&self, count: usize) -> Vec<Outlines> {
+        let indices = evenly(count, self.last + 1);
+        indices.map(|index| frame(self.recorded, &self.probes[index], &self.view)).collect()
+    }
+
+    /// The strip of these times.
+    fn strip(&self, frames: Vec<Outlines>, shared: bool) -> Strip {
+        let Self { recorded, probes, strays, view, .. } = self;
+        let drawn = recorded.bodies.len().min(MOST_BODIES);
         let path = |body: usize| probes.iter().map(|probe| view.project(&probe.poses[body].position)).collect();
-        let still = !supports_move(recorded, &probes);
-        let strobe = STROBE_TIMES.into_iter().filter(|_| still).find_map(|count| {
-            let kept = without_overlaps(frames(count));
-            // Where a third of the times had to be left out, the rest does not tell the motion.
-            (kept.len() * 3 >= 2 * count.min(moving + 1) && kept.len() > 3).then_some(kept)
-        });
-        Ok(Self {
-            shared: strobe.is_some(),
-            frames: strobe.unwrap_or_else(|| frames(FRAMES)),
+        Strip {
+            shared,
+            frames,
             paths: (0..drawn).map(path).collect(),
             left_out: recorded.bodies.len() - drawn,
             room: (view.project(&strays.middle), strays.radius),
-            strays: strays.bodies.into_iter().map(|body| (body, recorded.bodies[body].name.clone())).collect(),
+            strays: strays.bodies.iter().map(|body| (*body, recorded.bodies[*body].name.clone())).collect(),
             hues: recorded.classes.of_body.clone(),
             classes: if recorded.classes.are_bodies() {
                 Vec::new()
             } else {
                 (0..recorded.classes.names.len()).map(|class| recorded.classes.label(class)).collect()
             },
-        })
+        }
+    }
+}
+
+impl Strip {
+    /// The strip of a recording.
+    ///
+    /// # Errors
+    /// [`PlotError`] where it cannot be read or has no samples.
+    pub fn of(recorded: &RecordedScene) -> Result<Self, PlotError> {
+        let watched = Watched::of(recorded)?;
+        let still = !supports_move(recorded, &watched.probes);
+        let strobe = STROBE_TIMES.into_iter().filter(|_| still).find_map(|count| {
+            let kept = without_overlaps(watched.frames(count));
+            // Where a third of the times had to be left out, the rest does not tell the motion.
+            (kept.len() * 3 >= 2 * count.min(watched.last + 1) && kept.len() > 3).then_some(kept)
+        });
+        let shared = strobe.is_some();
+        Ok(watched.strip(strobe.unwrap_or_else(|| watched.frames(FRAMES)), shared))
+    }
+
+    /// So many times of a recording, evenly, each a picture of its own, and whether a support moves.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn of_times(recorded: &RecordedScene, count: usize) -> Result<(Self, bool), PlotError> {
+        let watched = Watched::of(recorded)?;
+        Ok((watched.strip(watched.frames(count), false), supports_move(recorded, &watched.probes)))
     }
 }
 

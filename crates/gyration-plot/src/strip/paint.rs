@@ -9,13 +9,13 @@ use crate::draw::{Anchor, Color, Label, Page, Point, Rect, Stroke, Text, color};
 /// Height of times [pt].
 pub(super) const TIME_SIZE: f64 = 7.5;
 /// The highest a picture for all times may be [pt].
-const MOST_HEIGHT: f64 = 260.0;
+pub(super) const MOST_HEIGHT: f64 = 260.0;
 /// The height aimed at for pictures of one time each, all rows together [pt].
 const FRAMES_HEIGHT: f64 = 210.0;
 /// Between pictures of one time each [pt].
 const GUTTER: f64 = 10.0;
 /// Depth of the hatching below a support [pt].
-const HATCH: f64 = 6.0;
+pub(super) const HATCH: f64 = 6.0;
 
 /// Points of an outline that are nearer to each other are one [pt].
 const RESOLUTION: f64 = 0.4;
@@ -36,6 +36,11 @@ pub(super) struct PageMap {
 }
 
 impl PageMap {
+    /// Points of the page a metre, and where the lower left corner of what is shown is on it.
+    pub fn new(scale: f64, corner: Point, shown: &Viewport) -> Self {
+        Self { scale, corner, low: shown.low }
+    }
+
     pub fn place(&self, point: Point) -> Point {
         [self.corner[0] + self.scale * (point[0] - self.low[0]), self.corner[1] - self.scale * (point[1] - self.low[1])]
     }
@@ -62,16 +67,21 @@ pub(super) struct Viewport {
 }
 
 impl Viewport {
-    fn width(&self) -> f64 {
+    pub fn width(&self) -> f64 {
         self.high[0] - self.low[0]
     }
 
-    fn height(&self) -> f64 {
+    pub fn height(&self) -> f64 {
         self.high[1] - self.low[1]
     }
 
+    /// Points of the page a metre, where it is at most so wide and high [pt].
+    pub fn scale(&self, [width, height]: [f64; 2]) -> f64 {
+        (width / self.width()).min(height / self.height())
+    }
+
     /// All bodies, strays as far as the others reach, and the grounds next to them where they are not far off.
-    fn of(strip: &Strip) -> Self {
+    pub fn of(strip: &Strip) -> Self {
         let frames = || strip.frames.iter();
         let mut bounds = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
         let silhouettes = frames().flat_map(|frame| &frame.bodies);
@@ -138,12 +148,12 @@ pub(super) fn caption(words: &str, at: Point, anchor: Anchor) -> Text {
 }
 
 fn draw_shared(strip: &Strip, bounds: &Viewport, drawing: &mut Page, area: Rect) -> f64 {
-    let scale = (area.width / bounds.width()).min(MOST_HEIGHT / bounds.height());
+    let scale = bounds.scale([area.width, MOST_HEIGHT]);
     let floor = area.y + HEADROOM + scale * bounds.height();
     let frame = Rect { height: floor + HATCH - area.y, ..area };
     // The picture stands in the middle of the width.
     let corner = [area.x + 0.5 * (area.width - scale * bounds.width()), floor];
-    let map = PageMap { scale, corner, low: bounds.low };
+    let map = PageMap::new(scale, corner, bounds);
     let last = strip.frames.len() - 1;
     draw_grounds(&strip.frames[last].grounds, &map, drawing, frame);
     draw_paths(strip, &map, drawing, frame);
@@ -194,17 +204,16 @@ fn draw_frames(strip: &Strip, bounds: &Viewport, drawing: &mut Page, area: Rect)
     let full = |columns: &usize| count.is_multiple_of(*columns) || count < FRAMES;
     let columns = (1..=count).filter(full).min_by(|a, b| miss(*a).total_cmp(&miss(*b))).unwrap_or(1);
     let cell_width = pitch(columns) - GUTTER;
-    let scale = (cell_width / bounds.width()).min(MOST_HEIGHT / bounds.height());
+    let scale = bounds.scale([cell_width, MOST_HEIGHT]);
     let size = [scale * bounds.width(), scale * bounds.height()];
     let clock = strip.clock();
     for (index, moment) in strip.frames.iter().enumerate() {
         let x = area.x + pitch(columns) * (index % columns) as f64 + 0.5 * (cell_width - size[0]);
         let y = area.y + row_height(columns) * (index / columns) as f64;
         let cell = Rect { x, y, width: size[0], height: size[1] + HATCH };
-        let map = PageMap { scale, corner: [x, y + size[1]], low: bounds.low };
+        let map = PageMap::new(scale, [x, y + size[1]], bounds);
         draw_grounds(&moment.grounds, &map, drawing, cell);
-        let hue = |body: &Silhouette| color::series(strip.hues[body.body]);
-        moment.bodies.iter().for_each(|body| draw_body((body, hue(body)), 0.3, &map, drawing, cell));
+        draw_bodies(strip, moment, &map, drawing, cell);
         strip.mark_strays(moment, (bounds, &map), drawing);
         let at = [x + 0.5 * size[0], cell.bottom() + 1.1 * TIME_SIZE];
         drawing.text(caption(&clock.words(moment.time), at, Anchor::Middle));
@@ -219,6 +228,12 @@ fn draw_paths(strip: &Strip, map: &PageMap, drawing: &mut Page, frame: Rect) {
         let stroke = Stroke { color: color::series(strip.hues[body]).faded(0.55), width: 0.6, dash: &[2.0, 2.0] };
         drawing.line(map.place_line(path), stroke, Some(frame));
     }
+}
+
+/// The bodies at a time.
+pub(super) fn draw_bodies(strip: &Strip, moment: &Outlines, map: &PageMap, drawing: &mut Page, frame: Rect) {
+    let hue = |body: &Silhouette| color::series(strip.hues[body.body]);
+    moment.bodies.iter().for_each(|body| draw_body((body, hue(body)), 0.3, map, drawing, frame));
 }
 
 fn draw_body((body, hue): (&Silhouette, Color), strength: f64, map: &PageMap, drawing: &mut Page, frame: Rect) {
@@ -249,7 +264,7 @@ fn draw_body((body, hue): (&Silhouette, Color), strength: f64, map: &PageMap, dr
 }
 
 /// The supports, behind everything else.
-fn draw_grounds(grounds: &[Ground], map: &PageMap, drawing: &mut Page, frame: Rect) {
+pub(super) fn draw_grounds(grounds: &[Ground], map: &PageMap, drawing: &mut Page, frame: Rect) {
     for ground in grounds {
         match ground {
             Ground::Cut(cut) => draw_cut(cut, map, drawing, frame),
@@ -292,7 +307,7 @@ fn draw_cut(ground: &Cut, map: &PageMap, drawing: &mut Page, frame: Rect) {
 }
 
 /// A bar of a round length, with its length, ending at the point.
-fn draw_scale_bar(scale: f64, drawing: &mut Page, end: Point) {
+pub(super) fn draw_scale_bar(scale: f64, drawing: &mut Page, end: Point) {
     let length = round_step(90.0 / scale, 3);
     let words = length_in_words(length);
     let label = Label::new(&words);
