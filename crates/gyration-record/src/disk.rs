@@ -3,6 +3,10 @@
 //! A file is replaced as a whole: written beside itself as `NAME.part`, brought to the disk, renamed; so it is the old
 //! or the new one at any moment. What has no name yet is brought to the disk once, before it gets one. Tests cut the
 //! power before any of these operations.
+//!
+//! Where the system can bring a file system to the disk as a whole, that is one wait for all files of a recording; what
+//! others have written there is waited for too, so that only the beginning and the end of a recording are so stored,
+//! and what is between them file by file.
 
 use crate::error::RecordError;
 use crate::metadata::Group;
@@ -10,7 +14,9 @@ pub(crate) use crate::names::{METADATA, STATE};
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
+use std::thread::ScopedJoinHandle;
 
 /// The file of the checkpoint.
 pub(crate) const CHECKPOINT: &str = "state/checkpoint";
@@ -21,7 +27,6 @@ const PART: &str = ".part";
 /// How deep a recording is: groups, their arrays, the chunks of these.
 const DEPTH: usize = 3;
 /// Files on their way to the disk at once: waiting is all they do.
-#[cfg(not(target_os = "linux"))]
 const SYNC_THREADS: usize = 8;
 
 /// Access to the disk.
@@ -29,6 +34,8 @@ const SYNC_THREADS: usize = 8;
 pub(crate) struct Disk {
     /// Whether what is written may still be lost: it is brought to the disk with all else before it gets its name.
     pub(crate) is_unnamed: bool,
+    /// Whether files are waited for together with all of their file system, where that can be.
+    pub(crate) waits_once: bool,
     #[cfg(test)]
     pub(crate) fuse: Option<crate::crash_tests::Fuse>,
 }
@@ -117,7 +124,11 @@ impl Disk {
     /// Waits until the disk has the files.
     fn sync_files(&self, files: &[(File, &Path)]) -> Result<(), RecordError> {
         files.iter().try_for_each(|(_, path)| self.step(path))?;
-        if self.is_test() { Ok(()) } else { sync_together(files) }
+        match files {
+            _ if self.is_test() => Ok(()),
+            [(file, path), _, ..] if self.waits_once && cfg!(target_os = "linux") => sync_file_system(file, path),
+            _ => sync_each(files),
+        }
     }
 
     /// In tests, the moment at which the power may fail.
@@ -140,27 +151,17 @@ impl Disk {
     }
 }
 
-/// Waits until the disk has files of one file system.
-#[cfg(target_os = "linux")]
-fn sync_together(files: &[(File, &Path)]) -> Result<(), RecordError> {
-    match files {
-        [] => Ok(()),
-        [(file, path)] => file.sync_data().map_err(RecordError::io("bring to the disk", path)),
-        [(file, path), ..] => sync_file_system(file, path),
-    }
-}
-
-/// The same, several at once: the disk then needs hardly longer than for one.
-#[cfg(not(target_os = "linux"))]
-fn sync_together(files: &[(File, &Path)]) -> Result<(), RecordError> {
+/// Waits until the disk has files; several at once, since it then needs hardly longer than for one.
+fn sync_each(files: &[(File, &Path)]) -> Result<(), RecordError> {
     let sync = |(file, path): &(File, &Path)| file.sync_data().map_err(RecordError::io("bring to the disk", path));
     let share = files.len().div_ceil(SYNC_THREADS).max(1);
+    if files.len() < 2 {
+        return files.iter().try_for_each(sync);
+    }
     std::thread::scope(|scope| {
         let shares = files.chunks(share).map(|files| scope.spawn(move || files.iter().try_for_each(sync)));
         let shares = shares.collect::<Vec<_>>();
-        let join = |share: std::thread::ScopedJoinHandle<_>| {
-            share.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        };
+        let join = |share: ScopedJoinHandle<_>| share.join().unwrap_or_else(|panic| resume_unwind(panic));
         shares.into_iter().try_for_each(join)
     })
 }
@@ -196,7 +197,7 @@ fn sync_tree(directory: &Path) -> Result<(), RecordError> {
     // A file of which Windows is to wait has to be open for writing.
     let open = |path: &'_ PathBuf| OpenOptions::new().read(true).write(path.is_file()).open(path);
     let opened = files.iter().map(|path| Ok((open(path).map_err(RecordError::io("open", path))?, path.as_path())));
-    sync_together(&opened.collect::<Result<Vec<_>, RecordError>>()?)
+    sync_each(&opened.collect::<Result<Vec<_>, RecordError>>()?)
 }
 
 /// The file or directory beside `path` that becomes it.

@@ -311,6 +311,7 @@ impl Writer {
     /// `Layout` if a name is reserved; `Io`.
     pub fn finish(mut self, patch: Attributes, checkpoint: &[u8]) -> Result<(), RecordError> {
         self.patch_attributes(patch)?;
+        self.disk.waits_once = true;
         self.flush(checkpoint)
     }
 
