@@ -124,10 +124,10 @@ impl Disk {
     /// Waits until the disk has the files.
     fn sync_files(&self, files: &[(File, &Path)]) -> Result<(), RecordError> {
         files.iter().try_for_each(|(_, path)| self.step(path))?;
-        match files {
+        match self.waits_once {
             _ if self.is_test() => Ok(()),
-            [(file, path), _, ..] if self.waits_once && cfg!(target_os = "linux") => sync_file_system(file, path),
-            _ => sync_each(files),
+            true => sync_together(files),
+            false => sync_each(files),
         }
     }
 
@@ -164,6 +164,15 @@ fn sync_each(files: &[(File, &Path)]) -> Result<(), RecordError> {
         let join = |share: ScopedJoinHandle<_>| share.join().unwrap_or_else(|panic| resume_unwind(panic));
         shares.into_iter().try_for_each(join)
     })
+}
+
+/// Waits until the disk has files of one file system, together where the system can.
+fn sync_together(files: &[(File, &Path)]) -> Result<(), RecordError> {
+    #[cfg(target_os = "linux")]
+    if let [(file, path), _, ..] = files {
+        return sync_file_system(file, path);
+    }
+    sync_each(files)
 }
 
 /// Waits until the disk has all that was written to the file system of a file: one wait, where each file would have its
