@@ -94,31 +94,45 @@ fn program() -> Command {
     command
 }
 
-/// The scenes, as the program lists them.
-fn list(mut command: Command) -> Result<Vec<ListedScene>, String> {
+/// The scenes, as the program lists them, each with what its file tells.
+fn list(command: Command) -> Result<Vec<ListedScene>, String> {
+    Ok(entries(listed(command)?, scene_file))
+}
+
+/// The names and titles that a program lists.
+fn listed(mut command: Command) -> Result<Vec<(String, String)>, String> {
     let output =
         command.arg("scenes").output().map_err(|error| format!("`gyration scenes` cannot be started: {error}"))?;
     if !output.status.success() {
         return Err(format!("`gyration scenes`: {}", String::from_utf8_lossy(&output.stderr)));
     }
-    let entries = entries(&String::from_utf8_lossy(&output.stdout), scene_file);
-    if entries.is_empty() { Err("`gyration scenes` lists nothing".into()) } else { Ok(entries) }
+    let titles = titles(&String::from_utf8_lossy(&output.stdout));
+    if titles.is_empty() { Err("`gyration scenes` lists nothing".into()) } else { Ok(titles) }
 }
 
 /// The names of the scenes that a program lists.
 pub fn names(program: Command) -> Result<Vec<String>, String> {
-    Ok(list(program)?.into_iter().map(|entry| entry.name).collect())
+    Ok(listed(program)?.into_iter().map(|(name, _)| name).collect())
 }
 
-/// Entries from a listing: `name  title`; an empty line ends it. The file of each tells what to look at.
-fn entries(listing: &str, file: impl Fn(&str) -> String) -> Vec<ListedScene> {
-    let entry = |line: &str| {
+/// Names and titles from a listing: `name  title`; an empty line ends it. Earlier programs had lines of words below
+/// each, indented.
+fn titles(listing: &str) -> Vec<(String, String)> {
+    let lines = listing.lines().take_while(|line| !line.is_empty()).filter(|line| !line.starts_with(' '));
+    let split = |line: &str| {
         let (name, title) = line.split_once(' ').unwrap_or((line, ""));
-        let (name, title) = (name.to_owned(), title.trim().to_owned());
+        (name.to_owned(), title.trim().to_owned())
+    };
+    lines.map(split).collect()
+}
+
+/// The scenes of these names and titles; the file of each tells what to look at.
+fn entries(titles: Vec<(String, String)>, file: impl Fn(&str) -> String) -> Vec<ListedScene> {
+    let entry = |(name, title): (String, String)| {
         let text = told(&file(&name), &title);
         ListedScene { name, title, text }
     };
-    listing.lines().take_while(|line| !line.is_empty()).map(entry).collect()
+    titles.into_iter().map(entry).collect()
 }
 
 /// The comment at the beginning of a file; one that begins with the title goes on after it.
@@ -153,7 +167,7 @@ mod tests {
 
     #[test]
     fn a_listing_is_read_back() {
-        let listing = "dice    A die thrown\nrock-2  A block\n\n`gyration run NAME` runs\n";
+        let listing = "dice    A die thrown\n        in earlier words\nrock-2  A block\n\n`gyration run NAME` runs\n";
         let files = |name: &str| match name {
             "dice" => "# A die thrown. Look at it,\n# and again.\n\n# Not this.\ntitle = \"A die thrown\"\n".to_owned(),
             _ => String::new(),
@@ -164,14 +178,14 @@ mod tests {
             text: text.into(),
         };
         assert_eq!(
-            entries(listing, files),
+            entries(titles(listing), files),
             [entry("dice", "A die thrown", "Look at it, and again."), entry("rock-2", "A block", "")]
         );
     }
 
     #[test]
     fn every_scene_has_its_place_on_the_page() {
-        let page = page(&entries("a  First\nb  Second\n", |name| format!("# {name} is told.\n")));
+        let page = page(&entries(titles("a  First\nb  Second\n"), |name| format!("# {name} is told.\n")));
         assert!(page.contains("## `a`\n\n**First.** a is told.\n\n![First](pictures/a.svg)\n\n## `b`"), "{page}");
         assert!(page.ends_with("![Second](pictures/b.svg)\n"));
     }
