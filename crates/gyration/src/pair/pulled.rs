@@ -97,21 +97,20 @@ pub(super) fn carried(expansion: &Expansion, halves: [&Half; 2], shift: &Vec3) -
         let scale = parts[i] / value;
         let stiff = second * heights[i];
         let weight = power * mean - (1.0 + power) * growth[i];
-        let pull = carried_pull(scale, &stiff, weight, first);
+        let pull = scale * (stiff - weight * first);
         Carried { scale, heights: heights[i], stiff, growth: growth[i], weight, pull }
     })
 }
 
-/// e.
-fn carried_pull(scale: f64, stiff: &Vec4, weight: f64, first: &Vec4) -> Vec4 {
-    scale * (stiff - weight * first)
-}
-
 impl Carried {
-    /// (f | M)/σ on a part of a side, or the whole, given A and its potential.
-    fn on_part(&self, normal: &Vec3, turn: &Vec3, pull: &Vec4, own: &Potential) -> Mat34 {
-        let carried = carried_pull(self.scale, &(own.second * self.heights), self.weight, &own.first);
-        normal * (pull + carried).transpose() - self.scale * turn * own.first.transpose()
+    /// e of a part of a side, given its potential.
+    fn of_part(&self, own: &Potential) -> Vec4 {
+        self.scale * (own.second * self.heights - self.weight * own.first)
+    }
+
+    /// (f | M)/σ, given A + e and a.
+    fn on(&self, normal: &Vec3, turn: &Vec3, pull: &Vec4, first: &Vec4) -> Mat34 {
+        normal * pull.transpose() - self.scale * turn * first.transpose()
     }
 }
 
@@ -120,7 +119,8 @@ impl Pulled {
     pub fn on_part(&self, side: usize, normal: &Vec3, moments: &[Moments], own: &Potential) -> Mat34 {
         let pull = |term: &Term| term.weight(side) * potential(&term.law, moments).first;
         let pull: Vec4 = self.terms.iter().flatten().map(pull).sum();
-        self.carried[side].on_part(normal, &self.turn, &pull, own)
+        let carried = &self.carried[side];
+        carried.on(normal, &self.turn, &(pull + carried.of_part(own)), &own.first)
     }
 
     /// At a plane in balance, about which log U is expanded.
@@ -155,8 +155,8 @@ impl Pulled {
         let turn = expansion.turned(&shift);
         let carried = carried(expansion, halves, &shift);
         let on = [0, 1].map(|i| {
-            let own = &expansion.potentials[i];
-            halves[i].sign * carried[i].on_part(&plane.normal, &turn, &pulls[i], own)
+            let (pull, first) = (pulls[i] + carried[i].pull, &expansion.potentials[i].first);
+            halves[i].sign * carried[i].on(&plane.normal, &turn, &pull, first)
         });
         Ok(Self { energy, stored, terms, pulls, turn, carried, on })
     }
