@@ -2,7 +2,9 @@
 
 use crate::error::CliError;
 use gyration_files::printable;
+use std::fs::File;
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 
 /// Writes text to stdout.
 ///
@@ -22,6 +24,22 @@ pub fn offer(text: &str) -> Result<(), CliError> {
     match print(text) {
         Err(error) if error.is_closed_pipe() => Ok(()),
         printed => printed,
+    }
+}
+
+/// Writes a scene to a file, which must not be there unless it may be replaced.
+///
+/// # Errors
+/// [`CliError::Arguments`] with this fix if it is there; [`CliError::Write`].
+pub fn write_scene(path: &Path, text: &str, is_forced: bool, fix: &str) -> Result<(), CliError> {
+    let opened = if is_forced { File::create(path) } else { File::create_new(path) };
+    match opened {
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+            Err(CliError::arguments(format!("{} is there already", path.display()), fix))
+        }
+        opened => opened
+            .and_then(|mut file| file.write_all(text.as_bytes()))
+            .map_err(|source| CliError::Write { path: path.to_owned(), source }),
     }
 }
 

@@ -7,8 +7,6 @@ use crate::output;
 use gyration_robots::{Import, Options, import};
 use gyration_scene::Scene;
 use std::fmt::Write as _;
-use std::fs::File;
-use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 /// Writes the scene, opens it, and says what was left out and what was chosen.
@@ -21,7 +19,12 @@ pub fn execute(arguments: &ImportArguments) -> Result<u8, CliError> {
     if is_stdout {
         output::print(&made.scene)?;
     } else {
-        write(&path, &made.scene, arguments.force)?;
+        output::write_scene(
+            &path,
+            &made.scene,
+            arguments.force,
+            "choose another name by -o, or replace it by --force",
+        )?;
     }
     if !arguments.quiet {
         output::say(&told(&made));
@@ -45,20 +48,4 @@ fn told(Import { left_out, chosen, .. }: &Import) -> String {
     }
     let _ = write!(text, "{} left out, {} chosen", left_out.len(), chosen.len());
     text
-}
-
-fn write(path: &Path, text: &str, is_forced: bool) -> Result<(), CliError> {
-    let failed = |source: io::Error| CliError::Write { path: path.to_owned(), source };
-    let opened = match is_forced {
-        true => File::create(path),
-        false => File::create_new(path),
-    };
-    let mut file = match opened {
-        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-            let problem = format!("{} is there already", path.display());
-            return Err(CliError::arguments(problem, "choose another name by -o, or replace it by --force"));
-        }
-        opened => opened.map_err(failed)?,
-    };
-    file.write_all(text.as_bytes()).map_err(failed)
 }

@@ -4,9 +4,8 @@ use crate::arguments::New;
 use crate::error::{CliError, code};
 use crate::input::{quoted, shown};
 use crate::output;
-use std::fs::{self, File};
-use std::io::{self, Write as _};
-use std::path::{Path, PathBuf};
+use std::fs;
+use std::path::PathBuf;
 
 /// The scene, with words for its names.
 const TEMPLATE: &str = include_str!("new.toml");
@@ -29,8 +28,8 @@ pub fn execute(arguments: &New) -> Result<u8, CliError> {
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let file = quoted(&path.to_string_lossy());
     let title = toml_text(&name);
-    let text = TEMPLATE.replace("SCHEMA", SCHEMA).replace("\"TITLE\"", &title).replace("FILE", &file);
-    create(&path, &text)?;
+    let text = TEMPLATE.replace("SCHEMA", SCHEMA).replace("FILE", &file).replace("\"TITLE\"", &title);
+    output::write_scene(&path, &text, false, "choose another name")?;
     output::say(&format!("wrote {}: `gyration run {file}` runs it", shown(&path)));
     let schema = path.with_file_name(SCHEMA);
     if !schema.exists() {
@@ -44,14 +43,4 @@ pub fn execute(arguments: &New) -> Result<u8, CliError> {
 /// A text as TOML has it: what JSON escapes, TOML does in the same way.
 fn toml_text(text: &str) -> String {
     serde_json::Value::from(text).to_string()
-}
-
-fn create(path: &Path, text: &str) -> Result<(), CliError> {
-    let failed = |source: io::Error| CliError::Write { path: path.to_owned(), source };
-    match File::create_new(path) {
-        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-            Err(CliError::arguments(format!("{} is there already", path.display()), "choose another name"))
-        }
-        opened => opened.and_then(|mut file| file.write_all(text.as_bytes())).map_err(failed),
-    }
 }
