@@ -111,8 +111,6 @@ pub enum Mark {
     Path(Path),
     /// A label.
     Text(Text),
-    /// What is seen for a while.
-    Moment(Moment),
 }
 
 /// Marks that are seen for a while, again and again.
@@ -120,9 +118,9 @@ pub enum Mark {
 pub struct Moment {
     /// The marks.
     pub marks: Vec<Mark>,
-    /// When they are first and last seen, as parts of the whole.
+    /// When they are first seen, as a part of the whole.
     pub begin: f64,
-    /// See `begin`.
+    /// When they are last seen, likewise.
     pub end: f64,
     /// How long the whole takes [s].
     pub lasts: f64,
@@ -141,21 +139,20 @@ pub struct Page {
     pub title: String,
     /// From the lowest to the uppermost.
     pub marks: Vec<Mark>,
+    /// What is seen above these for a while, one after the other.
+    pub moments: Vec<Moment>,
 }
 
 impl Page {
     /// An empty page.
     pub fn new(width: f64, height: f64, title: impl Into<String>) -> Self {
-        Self { width, height, title: title.into(), marks: Vec::new() }
+        Self { width, height, title: title.into(), marks: Vec::new(), moments: Vec::new() }
     }
 
     /// What is seen where nothing moves.
     pub(super) fn still(&self) -> impl Iterator<Item = &Mark> {
-        self.marks.iter().flat_map(|mark| match mark {
-            Mark::Moment(moment) if moment.is_still => moment.marks.as_slice(),
-            Mark::Moment(_) => &[],
-            mark => std::slice::from_ref(mark),
-        })
+        let still = self.moments.iter().filter(|moment| moment.is_still);
+        self.marks.iter().chain(still.flat_map(|moment| &moment.marks))
     }
 
     /// Draws one open line.

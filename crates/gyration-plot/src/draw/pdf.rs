@@ -18,7 +18,6 @@ pub fn render(drawing: &Page) -> Vec<u8> {
         match mark {
             Mark::Path(path) => page.path(path),
             Mark::Text(text) => page.text(text),
-            Mark::Moment(_) => {}
         }
     }
     let stream = miniz_oxide::deflate::compress_to_vec_zlib(page.content.as_bytes(), COMPRESSION);

@@ -24,7 +24,6 @@ pub fn render(drawing: &Page) -> Vec<u8> {
         match mark {
             Mark::Path(path) => canvas.path(path),
             Mark::Text(text) => canvas.text(text),
-            Mark::Moment(_) => {}
         }
     }
     canvas.pixmap.encode_png().unwrap_or_default()

@@ -27,6 +27,7 @@ pub fn render(drawing: &Page) -> String {
         );
     }
     write_marks(&mut svg, &drawing.marks, &clips);
+    drawing.moments.iter().for_each(|moment| write_moment(&mut svg, moment, &clips));
     svg += "</svg>\n";
     svg
 }
@@ -36,7 +37,6 @@ fn write_marks(svg: &mut String, marks: &[Mark], clips: &[Rect]) {
         match mark {
             Mark::Path(path) => write_path(svg, path, clips),
             Mark::Text(text) => write_text(svg, text),
-            Mark::Moment(moment) => write_moment(svg, moment, clips),
         }
     }
 }
@@ -68,11 +68,7 @@ fn write_moment(svg: &mut String, moment: &Moment, clips: &[Rect]) {
 /// The different clips, in the order of their first use.
 fn clips(drawing: &Page) -> Vec<Rect> {
     let mut clips: Vec<Rect> = Vec::new();
-    let marks = drawing.marks.iter().flat_map(|mark| match mark {
-        Mark::Moment(moment) => moment.marks.as_slice(),
-        mark => std::slice::from_ref(mark),
-    });
-    for mark in marks {
+    for mark in drawing.marks.iter().chain(drawing.moments.iter().flat_map(|moment| &moment.marks)) {
         if let Mark::Path(Path { clip: Some(clip), .. }) = mark
             && !clips.contains(clip)
         {

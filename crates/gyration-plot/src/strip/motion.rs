@@ -7,7 +7,7 @@ use super::frames::{Outlines, Strip};
 use super::paint::{
     HATCH, MOST_HEIGHT, PageMap, TIME_SIZE, Viewport, caption, draw_bodies, draw_grounds, draw_scale_bar,
 };
-use crate::draw::{Anchor, Mark, Moment, Page, Rect};
+use crate::draw::{Anchor, Moment, Page, Rect};
 use crate::error::PlotError;
 use crate::recorded::RecordedScene;
 
@@ -105,11 +105,11 @@ impl Motion {
             let part = |time: f64| self.pace.factor() * (time - frames[0].time) / lasts;
             let end = frames.get(index + 1).map_or(1.0, |next| part(next.time));
             let moment = Moment { marks: page.marks, begin: part(shown.time), end, lasts, is_still: index == still };
-            drawing.marks.push(Mark::Moment(moment));
+            drawing.moments.push(moment);
         }
         drawing.text(caption(&self.pace.words(), [area.x + 0.5 * area.width, at[1]], Anchor::Middle));
         draw_scale_bar(scale, drawing, [frame.right(), frame.bottom() + 8.0]);
-        strip.draw_classes(drawing, area, frame.bottom() + 10.0)
+        strip.draw_remarks(drawing, area, frame.bottom() + 10.0)
     }
 }
 

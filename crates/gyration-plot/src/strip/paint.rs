@@ -130,6 +130,11 @@ impl Strip {
             true => draw_shared(self, &bounds, drawing, area),
             false => draw_frames(self, &bounds, drawing, area),
         };
+        self.draw_remarks(drawing, area, bottom)
+    }
+
+    /// What colours mean, and how many bodies are not drawn, below the picture; returns where they end.
+    pub(super) fn draw_remarks(&self, drawing: &mut Page, area: Rect, bottom: f64) -> f64 {
         let bottom = self.draw_classes(drawing, area, bottom);
         if self.left_out > 0 {
             let words = match self.left_out {
