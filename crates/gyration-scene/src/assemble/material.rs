@@ -1,6 +1,6 @@
 //! Materials: from what the file calls them to energies; notes those without a stable rest state.
 
-use super::moduli::{Moduli, WrittenModuli};
+use super::moduli::{Moduli, Ratios, WrittenModuli};
 use crate::check::Reporter;
 use crate::file::Material as Written;
 use crate::key::Key;
@@ -17,7 +17,12 @@ pub(super) fn material(written: &Written, key: &Key, reporter: &mut Reporter<'_>
         }
         Written::NeoHookean(it) => {
             let own = [("shear", value(it.shear)), ("bulk", it.bulk.map(Positive::value))];
-            let moduli = moduli(key, "neo_hookean", own, (it.youngs_modulus, it.poissons_ratio), reporter)?;
+            let moduli = moduli(
+                (&key.key("neo_hookean"), Ratios::ToIncompressible),
+                own,
+                (it.youngs_modulus, it.poissons_ratio),
+                reporter,
+            )?;
             let made = MooneyRivlin::neo_hookean(moduli.shear(), moduli.bulk());
             ("neo_hookean", Material::MooneyRivlin(made))
         }
@@ -28,19 +33,34 @@ pub(super) fn material(written: &Written, key: &Key, reporter: &mut Reporter<'_>
         }
         Written::NeoHookeanLog(it) => {
             let own = [("mu", value(it.mu)), ("lambda", value(it.lambda))];
-            let moduli = moduli(key, "neo_hookean_log", own, (it.youngs_modulus, it.poissons_ratio), reporter)?;
+            let moduli = moduli(
+                (&key.key("neo_hookean_log"), Ratios::NotNegative),
+                own,
+                (it.youngs_modulus, it.poissons_ratio),
+                reporter,
+            )?;
             let made = NeoHookeanLog { mu: moduli.shear(), lambda: moduli.lambda() };
             ("neo_hookean_log", Material::NeoHookeanLog(made))
         }
         Written::StVenantKirchhoff(it) => {
             let own = [("mu", value(it.mu)), ("lambda", it.lambda.map(|lambda| lambda.0))];
-            let moduli = moduli(key, "st_venant_kirchhoff", own, (it.youngs_modulus, it.poissons_ratio), reporter)?;
+            let moduli = moduli(
+                (&key.key("st_venant_kirchhoff"), Ratios::Compressible),
+                own,
+                (it.youngs_modulus, it.poissons_ratio),
+                reporter,
+            )?;
             let made = StVenantKirchhoff { lambda: moduli.lambda(), mu: moduli.shear() };
             ("st_venant_kirchhoff", Material::StVenantKirchhoff(made))
         }
         Written::Hencky(it) => {
             let own = [("shear", value(it.shear)), ("bulk", value(it.bulk))];
-            let moduli = moduli(key, "hencky", own, (it.youngs_modulus, it.poissons_ratio), reporter)?;
+            let moduli = moduli(
+                (&key.key("hencky"), Ratios::Compressible),
+                own,
+                (it.youngs_modulus, it.poissons_ratio),
+                reporter,
+            )?;
             ("hencky", Material::Hencky(Hencky { shear: moduli.shear(), bulk: moduli.bulk().unwrap_or(0.0) }))
         }
         Written::Orthogonality(it) => {
@@ -55,18 +75,15 @@ fn value(modulus: Option<NonNegative<Pressure>>) -> Option<f64> {
     modulus.map(NonNegative::value)
 }
 
-/// The two moduli of a material of this name, from its own or from E and ν.
+/// The two moduli of a material, from its own or from E and ν.
 fn moduli(
-    key: &Key,
-    name: &str,
+    (key, ratios): (&Key, Ratios),
     own: [(&'static str, Option<f64>); 2],
     (youngs_modulus, poissons_ratio): (Option<Positive<Pressure>>, Option<f64>),
     reporter: &mut Reporter<'_>,
 ) -> Option<Moduli> {
     let youngs_modulus = youngs_modulus.map(Positive::value);
-    let (may_be_incompressible, may_be_auxetic) = (name == "neo_hookean", name != "neo_hookean_log");
-    let key = &key.key(name);
-    WrittenModuli { key, own, may_be_incompressible, may_be_auxetic, youngs_modulus, poissons_ratio }.read(reporter)
+    WrittenModuli { key, own, ratios, youngs_modulus, poissons_ratio }.read(reporter)
 }
 
 /// The material, if it has a stable rest state.

@@ -11,14 +11,41 @@ pub(super) struct WrittenModuli<'a> {
     pub key: &'a Key,
     /// The words for its own two moduli, and their values \[Pa\].
     pub own: [(&'static str, Option<f64>); 2],
-    /// Whether the second may be left out.
-    pub may_be_incompressible: bool,
-    /// Whether λ may be negative.
-    pub may_be_auxetic: bool,
+    /// Which ν the material may have.
+    pub ratios: Ratios,
     /// E \[Pa\].
     pub youngs_modulus: Option<f64>,
     /// ν.
     pub poissons_ratio: Option<f64>,
+}
+
+/// Which Poisson's ratios a material may have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ratios {
+    /// −1 < ν ≤ ½: without the second of its moduli it is incompressible.
+    ToIncompressible,
+    /// −1 < ν < ½.
+    Compressible,
+    /// 0 ≤ ν < ½: λ is not negative.
+    NotNegative,
+}
+
+impl Ratios {
+    fn allow(self, ratio: f64) -> bool {
+        match self {
+            Self::ToIncompressible => ratio > -1.0 && ratio <= 0.5,
+            Self::Compressible => ratio > -1.0 && ratio < 0.5,
+            Self::NotNegative => (0.0..0.5).contains(&ratio),
+        }
+    }
+
+    fn in_words(self) -> &'static str {
+        match self {
+            Self::ToIncompressible => "above -1 and at most 0.5",
+            Self::Compressible => "above -1 and below 0.5",
+            Self::NotNegative => "from 0 and below 0.5",
+        }
+    }
 }
 
 /// Two moduli of a material \[Pa\].
@@ -74,13 +101,9 @@ impl WrittenModuli<'_> {
                     reporter.note(&self.key.key(word), message, "keep one of the two ways");
                     return None;
                 }
-                let is_above = if self.may_be_auxetic { poissons_ratio > -1.0 } else { poissons_ratio >= 0.0 };
-                let is_incompressible = poissons_ratio == 0.5 && self.may_be_incompressible;
-                if !(is_above && (poissons_ratio < 0.5 || is_incompressible)) {
-                    let least = if self.may_be_auxetic { "above -1" } else { "from 0" };
-                    let most = if self.may_be_incompressible { "at most" } else { "below" };
-                    let help = format!("write a number {least} and {most} 0.5");
+                if !self.ratios.allow(poissons_ratio) {
                     let message = format!("Poisson's ratio is {poissons_ratio:?}");
+                    let help = format!("write a number {}", self.ratios.in_words());
                     reporter.note(&self.key.key("poissons_ratio"), message, help);
                     return None;
                 }
@@ -94,7 +117,7 @@ impl WrittenModuli<'_> {
     fn own_two(&self, reporter: &mut Reporter<'_>) -> Option<Moduli> {
         match self.own {
             [(_, Some(first)), (_, Some(second))] => Some(Moduli::Own(first, Some(second))),
-            [(_, Some(first)), (_, None)] if self.may_be_incompressible => Some(Moduli::Own(first, None)),
+            [(_, Some(first)), (_, None)] if self.ratios == Ratios::ToIncompressible => Some(Moduli::Own(first, None)),
             [(word, None), _] | [_, (word, None)] => {
                 let message = format!("the key \"{word}\" is missing");
                 let help = format!("add `{word}`, or give `youngs_modulus` and `poissons_ratio` instead");
