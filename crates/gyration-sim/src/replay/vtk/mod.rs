@@ -124,7 +124,7 @@ impl<'a> VtkSample<'a> {
     /// The surface, without the arrays of the whole.
     fn poly_data(&self) -> Result<PolyData<'a>, ReplayError> {
         let model = self.snapshot.model();
-        let touch = !model.contacts().is_empty() || model.rules().all().iter().next().is_some();
+        let touch = !model.contacts().is_empty() || !model.rules().is_empty();
         let deform = self.stress.iter().any(Option::is_some);
         let velocity = self.at_points(|body, x| body.motion().velocity.at(x).into());
         let mut point_data = vec![DataArray { name: "velocity", units: "m/s", components: 3, values: velocity }];
