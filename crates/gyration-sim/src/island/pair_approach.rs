@@ -9,8 +9,8 @@
 //! and the axis of what the spin ω_i differs from ω is carried round, by which a point comes nearer with no more than
 //! r_i |n × (ω_i × ω)|. The rest of second order draws it to the axis, away from the plane.
 //!
-//! A face along which an edge slides takes its plane along: with a plane that stands still its far end would soon be
-//! on the other side. So planes are tried that stand still, turn with A, and turn with B; the longest of these times
+//! A face along which an edge slides takes its plane along: with a plane that stands still its far end would soon be on
+//! the other side. So planes are tried that stand still, turn with A, and turn with B; the longest of these times
 //! holds.
 
 use crate::island::approach::Approach;
