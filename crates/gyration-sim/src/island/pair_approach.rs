@@ -156,8 +156,8 @@ mod tests {
             )
         };
         let text = format!(
-            "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 1, sample = 1 }}\n[[contact]]\nbetween = [\"one\", \"other\"]\n\
-             repulsion = {{ alpha = 1e-9, nu = 6, d0 = 1e-6 }}\n{}{}",
+            "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 1, sample = 1 }}\n\
+             [[contact]]\nbetween = [\"one\", \"other\"]\nrepulsion = {{ alpha = 1e-9, nu = 6, d0 = 1e-6 }}\n{}{}",
             body("one", Vec3::zeros(), velocities[0], spins[0]),
             body("other", place, velocities[1], spins[1])
         );
