@@ -3,6 +3,8 @@
 use std::num::NonZeroUsize;
 use std::thread;
 
+/// A page in a browser has one thread, no processes and no clock.
+pub(crate) const THERE_ARE_THREADS: bool = !cfg!(target_family = "wasm");
 /// Threads at most.
 const MOST: usize = 1024;
 

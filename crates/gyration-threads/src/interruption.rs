@@ -4,6 +4,7 @@
 //! and a matrix are the same whether anybody waits for them or not. Work that is shared out takes it along
 //! ([`Interruption::in_force`]).
 
+use crate::count::THERE_ARE_THREADS;
 use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -51,6 +52,7 @@ impl Interruption {
     #[must_use]
     pub fn after(mut self, most: Option<Duration>) -> Self {
         // What no clock can tell never comes.
+        let most = most.filter(|_| THERE_ARE_THREADS);
         let deadline = most.and_then(|most| Instant::now().checked_add(most));
         self.deadline = self.deadline.into_iter().chain(deadline).min();
         self

@@ -1,5 +1,6 @@
 //! Rayon in a process that may have been forked.
 
+use crate::count::THERE_ARE_THREADS;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::process;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -12,6 +13,9 @@ type Owned = (u32, Arc<ThreadPool>);
 /// The threads of a pool are not there in a process that was forked from the one that started them, and to wait for
 /// them is to wait for ever. Such a process, a worker of a Python pool say, gets a pool of its own.
 pub fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    if !THERE_ARE_THREADS {
+        return work();
+    }
     static FIRST: OnceLock<u32> = OnceLock::new();
     static FORKED: Mutex<Option<Owned>> = Mutex::new(None);
     let here = process::id();

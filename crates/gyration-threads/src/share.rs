@@ -1,5 +1,6 @@
 //! Jobs from one line, on many threads; results to the one that asked.
 
+use crate::count::THERE_ARE_THREADS;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
@@ -15,7 +16,7 @@ const WAITING: usize = 64;
 /// Does jobs on so many threads, and gives the results to `take` on this one, in the order in which they come.
 ///
 /// `take` is also called while nothing comes, with nothing. Once `stop` is true no job is begun; the ones under way may
-/// look at it too. A job without a result ends its thread.
+/// look at it too. A job without a result ends its thread. Where there are no threads all is done on this one.
 ///
 /// # Panics
 /// If a job does, when the others have ended.
@@ -26,6 +27,10 @@ pub fn share<J: Send, T: Send>(
     work: impl Fn(J) -> Option<T> + Sync,
     mut take: impl FnMut(Vec<T>),
 ) {
+    if !THERE_ARE_THREADS {
+        let results = jobs.take_while(|_| !stop.load(Ordering::Relaxed)).map_while(work);
+        return results.for_each(|result| take(vec![result]));
+    }
     let jobs = Mutex::new(jobs);
     let work = |results: SyncSender<T>| {
         while !stop.load(Ordering::Relaxed) {
