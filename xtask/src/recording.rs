@@ -47,6 +47,13 @@ pub fn differences(old: &Path, new: &Path) -> Result<Vec<String>, String> {
     Ok(lines)
 }
 
+/// The hash of its rows, as the program tells it.
+pub fn row_hash(recording: &Path) -> Result<String, String> {
+    let group = group(recording)?;
+    let hash = ["attributes", "row_hash"].iter().try_fold(&group, |value, key| value.get(key)).and_then(Json::text);
+    hash.map(str::to_owned).ok_or_else(|| format!("{}: no hash of the rows", recording.display()))
+}
+
 /// The sum of all arrays of a recording: FNV-1a of 64 bits, over names and numbers.
 pub fn sum(recording: &Path) -> Result<u64, String> {
     const START: u64 = 0xcbf2_9ce4_8422_2325;

@@ -30,6 +30,7 @@ mod layout;
 mod metadata;
 mod names;
 mod recording;
+mod row_hash;
 mod stream;
 mod writer;
 mod zarr;
@@ -44,6 +45,7 @@ pub use event::Event;
 pub use file::{cannot_write, replace_file, write_file};
 pub use layout::{ArraySpec, Dimension, FixedArray, Layout, Ragged, RaggedArray, chunk_rows_for};
 pub use recording::{Array, Recording};
+pub use row_hash::RowHash;
 pub use writer::{Resumed, Writer};
 
 /// Attributes of a recording: what JSON can hold.

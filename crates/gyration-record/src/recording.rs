@@ -161,6 +161,12 @@ impl Recording {
         Ok(Array { shape, data })
     }
 
+    /// The arrays that grow with time, in the order of a row; the time itself apart.
+    pub fn growing(&self) -> impl Iterator<Item = &ArrayInfo> {
+        let grows = |array: &&ArrayInfo| array.dims.first().is_some_and(|dim| dim == "time");
+        self.arrays().iter().filter(grows).filter(|array| array.name != "time")
+    }
+
     /// Names of the columns in the order of the CSV, which puts `t` before them.
     pub fn columns(&self) -> impl Iterator<Item = &str> {
         self.group.columns().map(|(name, _, _)| name)

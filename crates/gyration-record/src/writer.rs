@@ -56,6 +56,8 @@ pub struct Resumed {
     pub writer: Writer,
     /// The caller's bytes of the last checkpoint.
     pub checkpoint: Vec<u8>,
+    /// Rows that belong to it, and stay.
+    pub rows: usize,
     /// Attributes of the recording.
     pub attributes: Attributes,
 }
@@ -138,7 +140,7 @@ impl Writer {
         chunks::verify(&group.arrays, path, &[counts, ragged].concat())?;
         let mut writer = Self::over(disk, path, path.to_path_buf(), group, lock)?;
         writer.cut(&checkpoint, entries)?;
-        Ok(Resumed { writer, checkpoint: checkpoint.state, attributes })
+        Ok(Resumed { writer, checkpoint: checkpoint.state, rows: checkpoint.rows, attributes })
     }
 
     fn over(disk: Disk, path: &Path, directory: PathBuf, group: Group, lock: File) -> Result<Self, RecordError> {

@@ -27,7 +27,7 @@ use gyration::body::{BodyKind, Solid};
 use gyration::dynamics::Exchange;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_record::{Attributes, Layout, RecordError, Recording, Writer, chunk_rows_for};
+use gyration_record::{Attributes, Layout, RecordError, Recording, RowHash, Writer, chunk_rows_for};
 use gyration_scene::{Built, Scene};
 use gyration_threads::Interruption;
 use serde_json::{Value, json};
@@ -116,7 +116,7 @@ impl<'a> Job<'a> {
         self.interruption().within(|| {
             let mut simulation = Simulation::new(self.model, self.start, self.plan)?;
             let writer = Writer::create(path, &self.layout(), self.all_attributes())?;
-            let mut sink = RecordingSink::new(self.model, writer);
+            let mut sink = RecordingSink::new(self.model, writer, RowHash::default());
             simulation.begin(&mut sink)?;
             sink.writer.flush(&simulation.checkpoint())?;
             self.finish(path, simulation, sink, watch)
@@ -146,7 +146,8 @@ impl<'a> Job<'a> {
         let resumed = Writer::resume_finished(path, &RunSummary::ATTRIBUTES)?;
         self.interruption().within(|| {
             let simulation = Simulation::resume(self.model, self.start, self.plan, &resumed.checkpoint)?;
-            let sink = RecordingSink::new(self.model, resumed.writer);
+            let hash = RowHash::of_recording(&recording, resumed.rows)?;
+            let sink = RecordingSink::new(self.model, resumed.writer, hash);
             self.finish(path, simulation, sink, watch)
         })
     }
@@ -172,6 +173,7 @@ impl<'a> Job<'a> {
             false => Interruption::default().after(Some(TO_TELL)),
         };
         let mut summary = told.within(|| RunSummary::of(self.model, &mut simulation, outcome, elapsed));
+        summary.row_hash = Some(sink.hash.to_string());
         let checkpoint = simulation.checkpoint();
         if summary.outcome.is_final() {
             summary.warnings = Remarks::without_fluid(self.model, self.start, self.plan.tolerance.rtol).warnings;
@@ -309,13 +311,15 @@ struct RecordingSink<'a> {
     model: &'a Model,
     writer: Writer,
     flushed: Instant,
+    /// Of the rows so far.
+    hash: RowHash,
     /// Scratch: entries of a sample.
     entries: Vec<f64>,
 }
 
 impl<'a> RecordingSink<'a> {
-    fn new(model: &'a Model, writer: Writer) -> Self {
-        Self { model, writer, flushed: Instant::now(), entries: Vec::new() }
+    fn new(model: &'a Model, writer: Writer, hash: RowHash) -> Self {
+        Self { model, writer, flushed: Instant::now(), hash, entries: Vec::new() }
     }
 }
 
@@ -325,6 +329,7 @@ impl Sink for RecordingSink<'_> {
     }
 
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
+        self.hash.add_row(time, row);
         self.writer.append(time, row)
     }
 

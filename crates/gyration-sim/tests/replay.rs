@@ -4,7 +4,7 @@ use gyration::balance::observe;
 use gyration::dynamics::Workspace;
 use gyration::shape::Triangulation;
 use gyration::tensor::{Mat3, Vec3};
-use gyration_record::Recording;
+use gyration_record::{Recording, RowHash};
 use gyration_scene::Scene;
 use gyration_sim::replay::{Replay, ReplayError, SurfaceCells};
 use gyration_sim::{Job, Provenance, Reason, RecordingEnd, RunSummary, Unwatched};
@@ -405,7 +405,10 @@ fn a_summary_read_back_is_that_of_the_run() {
         let RecordingEnd::Ran(told) = Job::of(&scene, &provenance).record(&path, &mut Unwatched).unwrap() else {
             panic!("{name} had ended before")
         };
-        let (again, read) = RunSummary::of_recording(&Recording::open(&path).unwrap()).unwrap();
+        let recording = Recording::open(&path).unwrap();
+        let hash = RowHash::of_recording(&recording, recording.rows()).unwrap();
+        assert_eq!(told.row_hash, Some(hash.to_string()), "{name}");
+        let (again, read) = RunSummary::of_recording(&recording).unwrap();
         let text = |summary: &RunSummary| {
             let mut value = serde_json::to_value(summary).unwrap();
             value["wall_time"] = serde_json::Value::Null;

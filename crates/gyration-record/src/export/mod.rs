@@ -5,10 +5,12 @@
 mod csv;
 mod drawing;
 mod gltf;
+#[cfg(not(target_family = "wasm"))]
 mod npz;
 pub mod vtk;
 
 pub use csv::csv;
 pub use drawing::bodies_with_outlines;
 pub use gltf::gltf;
+#[cfg(not(target_family = "wasm"))]
 pub use npz::npz;

@@ -35,6 +35,8 @@ impl RunSummary {
         let time = simulation.state().time;
         let outcome = ended.clone().unwrap_or_else(|| Outcome::Stopped(Stop::by_request(time, Reason::Interrupted)));
         let mut summary = Self::of(model, &mut simulation, outcome, None);
+        let hash = recording.attributes().get("row_hash").filter(|_| ended.is_some());
+        summary.row_hash = hash.and_then(|hash| Some(hash.as_str()?.to_owned()));
         if ended.is_none() {
             summary.in_words =
                 format!("not ended at t = {time:.9} s: it is under way, or was interrupted and can be resumed");

@@ -39,6 +39,9 @@ pub struct RunSummary {
     pub smallest_gap: Option<f64>,
     /// How many events of each kind.
     pub events: Value,
+    /// The rows in one word ([`gyration_record::RowHash`]); none before it is recorded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub row_hash: Option<String>,
     /// What must be told of the run besides, its ledger apart; none before it is recorded to its end.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
@@ -66,7 +69,7 @@ pub struct BodySummary {
 
 impl RunSummary {
     /// The names of [`RunSummary::attributes`].
-    pub const ATTRIBUTES: [&str; 9] = [
+    pub const ATTRIBUTES: [&str; 10] = [
         "outcome",
         "outcome_in_words",
         "statistics",
@@ -75,6 +78,7 @@ impl RunSummary {
         "energy_in_play",
         "least_dissipation",
         "events",
+        "row_hash",
         "warnings",
     ];
 
@@ -115,6 +119,7 @@ impl RunSummary {
             bodies,
             smallest_gap: Some(run_state.smallest_gap).filter(|gap| gap.is_finite()),
             events: Value::Object(events),
+            row_hash: None,
             warnings: Vec::new(),
         }
     }
@@ -133,6 +138,9 @@ impl RunSummary {
             attributes.insert("least_dissipation".into(), Value::Object(entries.collect()));
         }
         attributes.insert("events".into(), self.events.clone());
+        if let Some(hash) = &self.row_hash {
+            attributes.insert("row_hash".into(), json!(hash));
+        }
         if !self.warnings.is_empty() {
             attributes.insert("warnings".into(), json!(self.warnings));
         }

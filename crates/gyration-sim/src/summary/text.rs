@@ -22,6 +22,9 @@ impl RunSummary {
         text += &dissipation(&self.ledger);
         text += &if self.bodies.len() > MOST_BODIES { crowd(&self.bodies) } else { bodies(&self.bodies) };
         text += &events(&self.events);
+        if let Some(hash) = &self.row_hash {
+            let _ = writeln!(text, "hash       {hash} of all rows");
+        }
         text.trim_end().to_owned()
     }
 
