@@ -1,18 +1,12 @@
 //! Arrays that the page shows and few recordings hold: computed from the model and the states of a recording, as if
 //! they had been recorded.
-//!
-//! Bodies that deform are coloured by their stress. Where bodies meet, or stand against supports of several normals,
-//! the sum of the contact forces does not tell what of it is normal and what tangential: the parts are had contact by
-//! contact.
 
-use crate::blob;
 use crate::error::ViewError;
-use crate::header::{ArrayEntry, Header};
-use gyration::body::BodyKind;
 use gyration::dynamics::ContactParts;
-use gyration::model::Model;
+use gyration_page::besides::{deforms, has_parts};
+use gyration_page::blob;
+use gyration_page::header::{ArrayEntry, Header};
 use gyration_record::Recording;
-use gyration_scene::Recorded;
 use gyration_sim::replay::Replay;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -58,27 +52,6 @@ impl Shown {
             dims: dims.collect(),
         }
     }
-}
-
-/// What the page shows of a model beside what its scene records.
-pub(crate) fn recorded_besides(model: &Model) -> Vec<Recorded> {
-    let stress = deforms(model).then_some(Recorded::CauchyStress);
-    let parts = [Recorded::NormalForce, Recorded::TangentialForce, Recorded::PairForce];
-    stress.into_iter().chain(parts.into_iter().filter(|_| has_parts(model))).collect()
-}
-
-fn deforms(model: &Model) -> bool {
-    model.bodies.iter().any(|body| !matches!(body.kind, BodyKind::Rigid(_)))
-}
-
-/// Whether the sum of the contact forces on a body may not tell their normal part.
-fn has_parts(model: &Model) -> bool {
-    let normals_differ = |body: usize| {
-        let mut normals = model.contacts_of(body).map(|contact| &model.supports[contact.support].normal);
-        let first = normals.next();
-        normals.any(|normal| Some(normal) != first)
-    };
-    !model.rules().is_empty() || (0..model.bodies.len()).any(normals_differ)
 }
 
 /// Arrays of a recording that are computed.

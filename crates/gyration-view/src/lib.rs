@@ -7,17 +7,14 @@
 //! lattice ─→ Waves ─→ Server ─→ page: bands, a wave as rows of one period
 //! ```
 //!
-//! The page is built from `viewer/` and embedded ([`page`]); it knows recordings only: [`header`] says what one is
-//! given, [`blob`] how the numbers are laid out. The server listens on 127.0.0.1 and answers who has its address, with
-//! the token in it, and nobody else. No mechanics here.
+//! The page is built from `viewer/` and embedded ([`page`]); it knows recordings only: `gyration-page` says what one is
+//! given, and how the numbers are laid out. The server listens on 127.0.0.1 and answers who has its address, with the
+//! token in it, and nobody else. No mechanics here.
 
 #![forbid(unsafe_code)]
 
-mod binary;
-pub mod blob;
 mod computed;
 mod error;
-pub mod header;
 mod live;
 pub mod page;
 mod report;

@@ -4,11 +4,11 @@
 //! out of a long recording first, then samples are thinned, one in 2, 3, …, and the header says so.
 
 use crate::error::ViewError;
-use crate::header::{Header, PageMode};
 use crate::page;
 use crate::stored::{Stored, kept};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use gyration_page::header::{Header, PageMode};
 use serde_json::Value;
 
 /// Characters that the data may take: with the page, which is below 1 MB, a report stays below 3 MB.

@@ -1,9 +1,9 @@
 //! A recording on disk as the page sees it: its header, and its arrays by name.
 
-use crate::blob;
 use crate::computed::Computed;
 use crate::error::ViewError;
-use crate::header::Header;
+use gyration_page::blob;
+use gyration_page::header::Header;
 use gyration_record::{RecordError, Recording};
 use gyration_scene::Scene;
 use serde_json::Value;

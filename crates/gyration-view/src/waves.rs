@@ -8,8 +8,8 @@
 //!
 //! `like` is the body of the run whose shape one of the wave has.
 
-use crate::binary;
-use crate::blob;
+use gyration_page::binary;
+use gyration_page::blob;
 use gyration_scene::Scene;
 use gyration_sim::survey::{BandOptions, BandSurvey, passing_waves};
 use gyration_sim::waves::PassingWaves;

@@ -6,11 +6,9 @@
 
 mod runner;
 mod shared;
-mod store;
 mod wish;
 
 pub(crate) use shared::LiveState;
-pub(crate) use store::{Cursor, Message};
 pub use wish::Wish;
 
 use gyration_scene::Scene;

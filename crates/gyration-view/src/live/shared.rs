@@ -1,6 +1,6 @@
 //! What the thread of a live run and its pages share: the store, and what the pages want of the thread.
 
-use super::store::Store;
+use gyration_page::store::Store;
 use gyration_scene::Scene;
 use gyration_threads::Interruption;
 use std::sync::atomic::{AtomicBool, Ordering};

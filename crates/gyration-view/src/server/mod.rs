@@ -129,7 +129,7 @@ async fn index() -> Response {
 
 async fn header_of(State(shown): State<Arc<Shown>>) -> Result<Response, BadRequest> {
     let json = match &*shown {
-        Shown::Live(_) => json!({ "protocol": crate::header::PROTOCOL, "mode": "live" }),
+        Shown::Live(_) => json!({ "protocol": gyration_page::header::PROTOCOL, "mode": "live" }),
         Shown::Recording(stored) => {
             let path = stored.read().unwrap_or_else(PoisonError::into_inner).path().to_path_buf();
             let fresh = Stored::open(&path)?;

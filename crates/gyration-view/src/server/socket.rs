@@ -1,11 +1,12 @@
 //! The websocket of a live run: what is new goes out, what the watcher wants comes in.
 
 use super::shown::{BadRequest, Shown};
-use crate::live::{Cursor, Live, LiveState, Message, Wish};
+use crate::live::{Live, LiveState, Wish};
 use axum::extract::State;
 use axum::extract::ws::{self, WebSocket, WebSocketUpgrade};
 use axum::http::StatusCode;
 use axum::response::Response;
+use gyration_page::store::{Cursor, Message};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -34,7 +35,7 @@ async fn converse(mut socket: WebSocket, shared: &Arc<LiveState>) -> Result<(), 
         let messages = shared.store().take(&mut cursor);
         let idle = messages.is_empty();
         for message in messages {
-            socket.send(message.into()).await?;
+            socket.send(carried(message)).await?;
         }
         let pause = async {
             if idle {
@@ -68,11 +69,10 @@ async fn grant(shared: &LiveState, text: &str, socket: &mut WebSocket) -> Result
     Ok(())
 }
 
-impl From<Message> for ws::Message {
-    fn from(message: Message) -> Self {
-        match message {
-            Message::Text(text) => Self::Text(text.into()),
-            Message::Binary(bytes) => Self::Binary(bytes.into()),
-        }
+/// As the websocket carries it.
+fn carried(message: Message) -> ws::Message {
+    match message {
+        Message::Text(text) => ws::Message::Text(text.into()),
+        Message::Binary(bytes) => ws::Message::Binary(bytes.into()),
     }
 }

@@ -7,7 +7,7 @@
 use serde_json::Value;
 
 /// A message of a head and its payload.
-pub(crate) fn encode(head: &Value, payload: &[u8]) -> Vec<u8> {
+pub fn encode(head: &Value, payload: &[u8]) -> Vec<u8> {
     let mut text = head.to_string();
     while !(4 + text.len()).is_multiple_of(8) {
         text.push(' ');

@@ -50,15 +50,14 @@ impl ArrayEntry {
         self.dims.iter().map(|(_, size)| size).product()
     }
 
-    /// As a growing array of a recording; none for labels, events, fixed arrays and the time.
-    fn growing(info: &ArrayInfo) -> Option<Self> {
-        let grows = info.name != "time" && info.dims.first().is_some_and(|dim| dim == "time");
-        grows.then(|| Self {
+    /// Of a growing array of a recording.
+    fn of_array(info: &ArrayInfo) -> Self {
+        Self {
             name: info.name.clone(),
             units: info.units.clone(),
             description: info.description.clone(),
             dims: info.dims.iter().cloned().zip(info.shape.iter().copied()).skip(1).collect(),
-        })
+        }
     }
 }
 
@@ -117,7 +116,7 @@ impl Header {
             mode: PageMode::Recording,
             run: 1,
             attributes: recording.attributes().clone(),
-            arrays: recording.arrays().iter().filter_map(ArrayEntry::growing).collect(),
+            arrays: recording.growing().map(ArrayEntry::of_array).collect(),
             columns: recording
                 .column_places()
                 .map(|(name, array, index)| (name.to_owned(), array.to_owned(), index))

@@ -11,7 +11,7 @@ const MOST_BYTES: usize = 2 << 20;
 
 /// A run as far as it has got.
 #[derive(Debug, Default)]
-pub(crate) struct Store {
+pub struct Store {
     run: u64,
     header: Option<Arc<str>>,
     /// Blobs that do not grow: the surfaces.
@@ -32,7 +32,7 @@ pub(crate) struct Store {
 
 /// How far a page has taken a store.
 #[derive(Debug, Default)]
-pub(crate) struct Cursor {
+pub struct Cursor {
     run: u64,
     fixed: usize,
     rows: usize,
@@ -45,14 +45,16 @@ pub(crate) struct Cursor {
 
 /// A message to a page.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Message {
+pub enum Message {
+    /// JSON.
     Text(String),
+    /// A head and numbers (`binary`).
     Binary(Vec<u8>),
 }
 
 impl Store {
     /// Forgets the run before and begins a new one.
-    pub(super) fn begin(&mut self, header: &Value, fixed: Vec<(String, Vec<u8>)>, strides: Vec<usize>) {
+    pub fn begin(&mut self, header: &Value, fixed: Vec<(String, Vec<u8>)>, strides: Vec<usize>) {
         let start = json!({ "time": 0.0, "end": header["end"], "steps": 0, "step": 0.0, "limited_by": "" });
         let header = json!({ "type": "header", "header": header }).to_string();
         *self = Self {
@@ -67,38 +69,43 @@ impl Store {
     }
 
     /// The number that the next run will have.
-    pub(super) fn next_run(&self) -> u64 {
+    pub fn next_run(&self) -> u64 {
         self.run + 1
     }
 
-    pub(super) fn row(&mut self, time: f64, row: &[f64]) {
+    /// Appends a row.
+    pub fn row(&mut self, time: f64, row: &[f64]) {
         self.times.push(time);
         self.values.extend(row.iter().map(|value| *value as f32));
     }
 
-    pub(super) fn event(&mut self, event: Event) {
+    /// Appends an event.
+    pub fn event(&mut self, event: Event) {
         self.events.push(event);
     }
 
-    pub(super) fn progress(&mut self, progress: Value) {
+    /// Says how far the run is ([`crate::progress`]).
+    pub fn progress(&mut self, progress: Value) {
         self.progress = (self.progress.0 + 1, progress);
     }
 
-    pub(super) fn finish(&mut self, done: Value) {
+    /// Says how it ended.
+    pub fn finish(&mut self, done: Value) {
         self.done = Some(done);
     }
 
-    pub(super) fn pause(&mut self, paused: bool) {
+    /// Says whether it waits.
+    pub fn pause(&mut self, paused: bool) {
         self.paused = paused;
     }
 
     /// Keeps a message, and beside it the overrides that it is of.
-    pub(super) fn problem(&mut self, problem: Value) {
+    pub fn problem(&mut self, problem: Value) {
         self.problem = (self.problem.0 + 1, problem);
     }
 
     /// What a page has not had yet, a few messages at a time; none: it has had all.
-    pub(crate) fn take(&self, cursor: &mut Cursor) -> Vec<Message> {
+    pub fn take(&self, cursor: &mut Cursor) -> Vec<Message> {
         let mut messages = Vec::new();
         if let Some(header) = self.header.as_ref().filter(|_| cursor.run != self.run) {
             *cursor = Cursor { run: self.run, problem: cursor.problem, ..Cursor::default() };
@@ -162,5 +169,27 @@ impl Store {
 
     fn blob(&self, name: &str, bytes: &[u8]) -> Message {
         Message::Binary(binary::encode(&json!({ "kind": "blob", "run": self.run, "name": name }), bytes))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A store is all that pages see; this one stands for a page that takes everything.
+    #[test]
+    fn a_store_is_handed_on_once_and_in_order() {
+        let mut store = Store::default();
+        store.begin(&json!({ "run": store.next_run() }), vec![("surface/0/points".into(), vec![0; 12])], vec![1, 2]);
+        for k in 0..3 {
+            store.row(f64::from(k), &[1.0, 2.0, 3.0]);
+        }
+        let mut cursor = Cursor::default();
+        assert_eq!(store.take(&mut cursor).len(), 4, "header, surface, rows, progress");
+        assert!(store.take(&mut cursor).is_empty());
+        store.finish(json!({ "type": "done" }));
+        assert_eq!(store.take(&mut cursor).len(), 1);
+        store.begin(&json!({}), Vec::new(), vec![1]);
+        assert_eq!(store.take(&mut cursor).len(), 2, "header and progress of the next run");
     }
 }

@@ -1,0 +1,147 @@
+//! A scene that runs as it is watched: header and surfaces, rows, how far it is, how it ended.
+
+use crate::besides::recorded_besides;
+use crate::blob;
+use crate::header::{ArrayEntry, Header};
+use crate::store::Store;
+use gyration_record::{ArraySpec, Layout, RecordError, RowHash};
+use gyration_scene::Scene;
+use gyration_sim::{Job, Outcome, Progress, Provenance, RunSummary, Simulation, Sink, limit_in_words};
+use serde_json::{Value, json};
+use std::ops::Range;
+use std::time::Duration;
+
+/// Numbers of all rows together at most, 200 MB: a longer run is sampled more coarsely.
+const MOST_NUMBERS: usize = 50_000_000;
+
+/// What is to be run of a scene, with what the page shows beside what the scene records.
+pub struct WatchedRun<'a> {
+    /// The run.
+    pub job: Job<'a>,
+    /// What the scene records.
+    recorded: Vec<ArraySpec>,
+    layout: Layout,
+    /// The samples kept, and those of the scene, if these would be too many.
+    thinned: Option<(usize, usize)>,
+}
+
+/// The hash of the rows as `gyration run` records them, from those that the page is given.
+pub struct SceneHash {
+    hash: RowHash,
+    /// Where the arrays of the scene stand in a row.
+    places: Vec<Range<usize>>,
+}
+
+impl<'a> WatchedRun<'a> {
+    /// Of a scene, by this program.
+    pub fn of(scene: &'a Scene, provenance: &Provenance) -> Self {
+        let mut job = Job::of(scene, provenance);
+        let recorded = job.layout().arrays;
+        for quantity in recorded_besides(job.model) {
+            job.plan.extras = job.plan.extras.and(quantity);
+        }
+        let layout = job.layout();
+        let thinned = thin(&mut job, &layout);
+        Self { job, recorded, layout, thinned }
+    }
+
+    /// The simulation after its first row, or in words why there is none.
+    ///
+    /// # Errors
+    /// These words.
+    pub fn begun(&self, first: &mut FirstRow) -> Result<Simulation, String> {
+        let Job { model, start, plan, .. } = self.job;
+        let mut simulation = Simulation::new(model, start, plan).map_err(|error| error.to_string())?;
+        simulation.begin(first).map_err(|error| error.to_string())?;
+        Ok(simulation)
+    }
+
+    /// Begins it in the store.
+    pub fn publish(&self, store: &mut Store) {
+        let mut header = Header::of_layout(&self.layout, self.job.all_attributes(), store.next_run());
+        if let Some((kept, of)) = self.thinned {
+            header.thinned = self.thinned;
+            header
+                .notes
+                .push(format!("The run is long: some {kept} of {of} samples are kept here. `gyration run` keeps all."));
+        }
+        let fixed = self.layout.fixed.iter().filter_map(|array| {
+            let (surface, part) = array.spec.name.strip_prefix("surface_")?.split_once('_')?;
+            let bytes = if part == "triangles" { blob::indices(&array.values) } else { blob::singles(&array.values) };
+            Some((format!("surface/{surface}/{part}"), bytes))
+        });
+        let strides = header.arrays.iter().map(ArrayEntry::stride).collect();
+        store.begin(&header.to_json(), fixed.collect(), strides);
+    }
+
+    /// What hashes its rows; none where rows are left out.
+    pub fn hash(&self) -> Option<SceneHash> {
+        if self.thinned.is_some() {
+            return None;
+        }
+        let (mut all, mut end) = (Vec::new(), 0);
+        for array in &self.layout.arrays {
+            all.push((&array.name, end..end + array.row_len()));
+            end += array.row_len();
+        }
+        let place = |array: &ArraySpec| Some(all.iter().find(|(name, _)| **name == array.name)?.1.clone());
+        Some(SceneHash { hash: RowHash::default(), places: self.recorded.iter().filter_map(place).collect() })
+    }
+
+    /// Tells the store how it ended, in so much time [s], if that is known.
+    pub fn finish(
+        &self,
+        store: &mut Store,
+        simulation: &mut Simulation,
+        outcome: Outcome,
+        (elapsed, hash): (Option<Duration>, Option<SceneHash>),
+    ) {
+        let summary = RunSummary::of(self.job.model, simulation, outcome, elapsed).attributes();
+        let outcome = summary.get("outcome").cloned().unwrap_or(Value::Null);
+        let hash = hash.map(|hash| hash.hash.to_string());
+        store.finish(json!({ "type": "done", "outcome": outcome, "summary": summary, "hash": hash }));
+    }
+}
+
+impl SceneHash {
+    /// Goes on with a row.
+    pub fn add_row(&mut self, time: f64, row: &[f64]) {
+        self.hash.add(&[time]);
+        self.places.iter().for_each(|place| self.hash.add(&row[place.clone()]));
+    }
+}
+
+/// How far a run is, as a page is told it.
+pub fn progress(progress: &Progress) -> Value {
+    let step = progress.step;
+    json!({
+        "time": progress.time,
+        "end": progress.end,
+        "steps": progress.statistics.accepted(),
+        "step": step.end - step.start,
+        "limited_by": limit_in_words(progress.model, &step.limit),
+    })
+}
+
+/// Samples more coarsely what would be too long to keep; the samples kept, and those of the scene.
+fn thin(job: &mut Job, layout: &Layout) -> Option<(usize, usize)> {
+    let numbers: usize = layout.arrays.iter().map(ArraySpec::row_len).sum();
+    let samples = (job.plan.end / job.plan.sample).ceil() as usize + 1;
+    let every = samples.saturating_mul(numbers).div_ceil(MOST_NUMBERS);
+    if every <= 1 {
+        return None;
+    }
+    job.plan.sample *= every as f64;
+    Some((samples.div_ceil(every), samples))
+}
+
+/// Keeps the first row until the run is known to have one.
+#[derive(Default)]
+pub struct FirstRow(pub Option<(f64, Vec<f64>)>);
+
+impl Sink for FirstRow {
+    fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
+        self.0 = Some((time, row.to_vec()));
+        Ok(())
+    }
+}
