@@ -1,5 +1,5 @@
 // The build: one HTML file with script and style inlined, so that it works from a disk and can be mailed.
-// The tests: `unit` runs in Node, `browser` drives Chromium over the built page.
+// The tests: `unit` runs in Node, `browser` drives Chromium over the built page, `site` over a built site.
 
 import { createHash } from "node:crypto";
 import type { Plugin } from "vite";
@@ -61,6 +61,15 @@ export default defineConfig({
           hookTimeout: 300_000,
           fileParallelism: false,
           // What a page comes to is waited for as long on a machine that does other work as on one that does none.
+          expect: { poll: { timeout: 60_000 } },
+        },
+      },
+      {
+        test: {
+          name: "site",
+          include: ["tests/site/**/*.test.ts"],
+          testTimeout: 120_000,
+          hookTimeout: 60_000,
           expect: { poll: { timeout: 60_000 } },
         },
       },

@@ -6,7 +6,7 @@
 import type { Outcome, Summary } from "./data/header";
 import { Cells } from "./data/lattice";
 import type { Recording } from "./data/recording";
-import type { Listener, Progress, Source } from "./data/source";
+import type { Control, Listener, Progress, Source } from "./data/source";
 import type { Handle } from "./handle";
 import { keysOf } from "./keys";
 import { hashOf, lookIn } from "./link";
@@ -28,6 +28,20 @@ import { Transport } from "./ui/transport";
 
 /** The address follows what is looked at after such a while [ms]. */
 const ADDRESS_MS = 300;
+
+/** Parts that a page may have around a run, beside those of every page. */
+export interface Surroundings {
+  /** The way out, in the head of the page. */
+  readonly home: HTMLElement;
+  /** Stands under the transport. */
+  readonly foot: HTMLElement;
+  /** The panel of the scene. */
+  readonly scene: HTMLElement;
+  /** A run has begun; true where its scene is another one, whose numbers get new sliders. */
+  begun(recording: Recording): boolean;
+  /** A run has ended, with the hash of its numbers. */
+  done(hash: string | null | undefined): void;
+}
 
 export class App implements Listener {
   readonly handle: Handle;
@@ -54,7 +68,10 @@ export class App implements Listener {
   private hasBegun = false;
   private writing = 0;
 
-  constructor(page: HTMLElement) {
+  constructor(
+    page: HTMLElement,
+    private readonly around: Surroundings | null = null,
+  ) {
     const ready = new Promise<void>((resolve) => {
       this.becameReady = resolve;
     });
@@ -72,6 +89,7 @@ export class App implements Listener {
       h(
         "header",
         { class: "top" },
+        around?.home,
         this.title,
         this.mode,
         this.chip,
@@ -83,7 +101,7 @@ export class App implements Listener {
       h(
         "main",
         {},
-        h("div", { class: "left" }, this.picture.element, this.transport.element),
+        h("div", { class: "left" }, this.picture.element, this.transport.element, around?.foot),
         this.tabs.element,
       ),
       help,
@@ -97,14 +115,17 @@ export class App implements Listener {
 
   async show(source: Source): Promise<void> {
     this.source = source;
-    const { control } = source;
-    if (control) {
-      const sliders = new Sliders((overrides) => control.restart(overrides));
-      this.sliders = sliders;
-      this.status = new RunStatus(control, () => sliders.ask());
-      this.tabs.set("Sliders", h("div", {}, this.status.element, sliders.element));
-    }
+    if (source.control) this.offer(source.control);
+    if (this.around) this.tabs.set("Scene", this.around.scene);
     await source.start(this);
+  }
+
+  /** Gives the run its sliders. */
+  private offer(control: Control): void {
+    const sliders = new Sliders((overrides) => control.restart(overrides));
+    this.sliders = sliders;
+    this.status = new RunStatus(control, () => sliders.ask());
+    this.tabs.set("Sliders", h("div", {}, this.status.element, sliders.element));
   }
 
   begun(recording: Recording): void {
@@ -116,12 +137,13 @@ export class App implements Listener {
     this.mode.textContent = header.mode;
     this.banner.clearError();
     this.load(recording);
+    if (this.around?.begun(recording) && this.source?.control) this.offer(this.source.control);
     this.sliders?.begun(header);
     this.status?.begun();
     this.tell();
     this.fillPanels();
-    // Waves are computed by the server: a report has none.
-    if (header.mode !== "report" && new Cells(header).hasWaves) {
+    // Waves are computed by the server: a report and a site have none.
+    if (header.mode !== "report" && !this.around && new Cells(header).hasWaves) {
       this.bands.begun(recording);
       this.tabs.set("Bands", this.bands.element);
       if (this.tabs.shown === "Bands") this.bands.opened();
@@ -156,7 +178,7 @@ export class App implements Listener {
     this.tell();
   }
 
-  done(_: Outcome | null, summary: Summary): void {
+  done(_: Outcome | null, summary: Summary, hash?: string | null): void {
     const { recording } = this;
     if (!recording) return;
     recording.header.summary = { ...recording.header.summary, ...summary };
@@ -165,6 +187,7 @@ export class App implements Listener {
     this.transport.grew();
     this.plots.grew();
     this.status?.done(outcomeInWords(recording));
+    this.around?.done(hash);
     this.tell();
     this.fillPanels();
     this.moved(null);
@@ -202,7 +225,7 @@ export class App implements Listener {
   private fillPanels(): void {
     if (!this.recording) return;
     this.tabs.set("Summary", summaryPanel(this.recording));
-    this.tabs.set("Scene", scenePanel(this.recording.header));
+    if (!this.around) this.tabs.set("Scene", scenePanel(this.recording.header));
   }
 
   /** Gives picture and clock a recording. */

@@ -100,7 +100,7 @@ fn list(command: Command) -> Result<Vec<ListedScene>, String> {
 }
 
 /// The names and titles that a program lists.
-fn listed(mut command: Command) -> Result<Vec<(String, String)>, String> {
+pub fn listed(mut command: Command) -> Result<Vec<(String, String)>, String> {
     let output =
         command.arg("scenes").output().map_err(|error| format!("`gyration scenes` cannot be started: {error}"))?;
     if !output.status.success() {

@@ -1,4 +1,4 @@
-//! Reading JSON, as far as the chores need it: no dependency is worth a hundred lines.
+//! JSON, as far as the chores need it: no dependency is worth a hundred lines.
 //!
 //! Numbers stay text, since two numbers are the same here only if they are written the same.
 
@@ -15,6 +15,19 @@ pub enum Json {
     List(Vec<Json>),
     /// An object.
     Map(BTreeMap<String, Json>),
+}
+
+/// A text as JSON writes it.
+pub fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for character in text.chars() {
+        match character {
+            '"' | '\\' => quoted.extend(['\\', character]),
+            control if control.is_control() => quoted += &format!("\\u{:04x}", u32::from(control)),
+            other => quoted.push(other),
+        }
+    }
+    quoted + "\""
 }
 
 impl Json {

@@ -4,8 +4,8 @@
 //! browser, the Python tests, the table of known answers, and licences and advisories of dependencies. `validate` runs
 //! the problems with a known answer and writes `docs/known-answers.md` from what they print. `gallery` runs the scenes,
 //! draws their pictures and writes `docs/gallery.md`. `golden` writes the sums of their recordings. `compare` tells
-//! whether two commits give the same recordings, `fill` fills comments and pages, `campaign` tries random scenes,
-//! `supply` lists the dependencies.
+//! whether two commits give the same recordings, `fill` fills comments and pages, `campaign` tries random scenes, `web`
+//! builds the site, `supply` lists the dependencies.
 //!
 //! This program knows no mechanics; it starts other programs and reads their output.
 
@@ -34,6 +34,7 @@ mod tally;
 mod test;
 mod validate;
 mod viewer;
+mod web;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -48,6 +49,7 @@ usage: cargo xtask CHORE
   golden         run the gallery and write the sums of its recordings, validation/golden.txt
   fill [FILE…]   fill comments and pages to the width of a line
   campaign [--scenes N] [--seed S] [--only K] [--program FILE] [--wall-time SECONDS]  random scenes, killed, resumed, audited
+  web            build the page that runs scenes by itself, target/site, and test it
   supply         list the packages that are locked, once what is new has been looked up
   compare OLD NEW [SCENE…]  whether two commits record the same bytes; also a program, or a folder of recordings";
 
@@ -60,6 +62,7 @@ fn main() -> ExitCode {
         ["validate"] => validate::run(),
         ["gallery", names @ ..] => gallery::run(names),
         ["golden"] => golden::run(),
+        ["web"] => web::run(),
         ["fill", names @ ..] => fill::run(names),
         ["supply"] => supply::run(),
         ["campaign", words @ ..] => campaign::run(words),

@@ -3,7 +3,7 @@
 //! Node and npm must be there. A browser is Debian's Chromium, which is installed where that is possible without asking
 //! (as root), and named otherwise; `GYRATION_CHROMIUM` names another one.
 
-use crate::debian::{can_install, install, on_path};
+use crate::debian::{self, can_install, on_path};
 use crate::root;
 use crate::steps::{Steps, succeeds};
 use std::path::{Path, PathBuf};
@@ -14,13 +14,7 @@ const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
 /// Checks, builds and tests the page with the program that the tests of the workspace built.
 pub fn tests(steps: &mut Steps, program: &Path, browser: &Path) {
-    if !succeeds(npm().arg("--version")) {
-        steps.complain("viewer: Node 20 or later is not installed; `cargo xtask test --fast` does without".into());
-        return;
-    }
-    // The build of the program has installed them already, unless it was told to do without a page.
-    let install = ["ci", "--ignore-scripts", "--no-audit", "--no-fund"];
-    if !packages_are_current() && !steps.run("install packages of the viewer", npm().args(install)) {
+    if !install(steps) {
         return;
     }
     steps.run("types and lints of the viewer", npm().args(["run", "--silent", "check"]));
@@ -32,6 +26,16 @@ pub fn tests(steps: &mut Steps, program: &Path, browser: &Path) {
     steps.run_tests("tests of the viewer", &mut command);
 }
 
+/// Installs its packages, unless they are there: the build of the program has done so, if it was to have a page.
+pub fn install(steps: &mut Steps) -> bool {
+    if !succeeds(npm().arg("--version")) {
+        steps.complain("viewer: Node 20 or later is not installed; `cargo xtask test --fast` does without".into());
+        return false;
+    }
+    let install = ["ci", "--ignore-scripts", "--no-audit", "--no-fund"];
+    packages_are_current() || steps.run("install packages of the viewer", npm().args(install))
+}
+
 /// Whether the packages installed are at least as new as the list of them.
 fn packages_are_current() -> bool {
     let modified = |path: &str| std::fs::metadata(root().join("viewer").join(path)).and_then(|found| found.modified());
@@ -41,7 +45,8 @@ fn packages_are_current() -> bool {
     }
 }
 
-fn npm() -> Command {
+/// npm, in the folder of the viewer.
+pub fn npm() -> Command {
     let mut command = Command::new(if cfg!(windows) { "npm.cmd" } else { "npm" });
     command.current_dir(root().join("viewer"));
     command
@@ -56,7 +61,7 @@ pub fn browser(steps: &mut Steps) -> Option<PathBuf> {
             steps.complain("viewer: no browser; on Debian and Ubuntu: sudo apt-get install chromium".into());
             return None;
         }
-        install(steps, "chromium");
+        debian::install(steps, "chromium");
     }
     found()
 }

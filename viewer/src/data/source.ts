@@ -1,4 +1,5 @@
-// Where a recording comes from: the page itself (report), a server's files (recording), a run (live).
+// Where a recording comes from: the page itself (report), a server's files (recording), a run of the server (live) or of
+// an engine in the page.
 //
 // A source calls back with what it has; the page draws whatever is there, and does not know which source it is.
 
@@ -23,8 +24,8 @@ export interface Listener {
   /** A surface has come. */
   surfaced(): void;
   progress(progress: Progress): void;
-  /** It is over: all that will come has come. */
-  done(outcome: Outcome | null, summary: Summary): void;
+  /** It is over: all that will come has come; the hash of its numbers, if the source has one. */
+  done(outcome: Outcome | null, summary: Summary, hash?: string | null): void;
   /** Words for the reader, and the overrides that were refused, if it is about them; the recording before stays. */
   failed(message: string, refused?: string[]): void;
   /** The server is gone, with the reason; or it is back. */

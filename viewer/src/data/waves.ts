@@ -1,9 +1,9 @@
 // Waves of a lattice, asked from the server: its bands, and a wave as a recording of one period over some cells.
 
 import type { Bands } from "./bands";
+import { rowsOf, unpacked } from "./feed";
 import type { ArraySpec, Vec3 } from "./header";
 import { table } from "./json";
-import { rowsOf, unpacked } from "./live";
 import { Recording } from "./recording";
 import { answer } from "./served";
 

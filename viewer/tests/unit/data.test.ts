@@ -1,8 +1,8 @@
 // Recordings in memory: rows, search, messages of a live run, frames, thinning, ledger.
 
 import { describe, expect, it } from "vitest";
+import { rowsOf, unpacked } from "../../src/data/feed";
 import { Frame } from "../../src/data/frame";
-import { rowsOf, unpacked } from "../../src/data/live";
 import { Recording } from "../../src/data/recording";
 import { lowerBound, thinned } from "../../src/math/thin";
 import { books, openLedgerInWords, residualInWords } from "../../src/ui/ledger";

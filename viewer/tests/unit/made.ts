@@ -1,7 +1,8 @@
 // Recordings made by hand for the unit tests.
 
-import type { Body, Header } from "../../src/data/header";
+import type { Body, Header, Outcome, Summary } from "../../src/data/header";
 import { Recording } from "../../src/data/recording";
+import type { Listener, Progress } from "../../src/data/source";
 
 export function bodyNamed(name: string, more: Partial<Body> = {}): Body {
   const euler_tensor = [1, 0, 0, 0, 1, 0, 0, 0, 1];
@@ -50,4 +51,36 @@ export function scalars(
     Object.values(values).map((column) => Float32Array.from(column)),
   );
   return recording;
+}
+
+/** A listener that writes down what it is told. */
+export class Told implements Listener {
+  readonly calls: string[] = [];
+  recording: Recording | null = null;
+
+  begun(recording: Recording): void {
+    this.recording = recording;
+    this.calls.push("begun");
+  }
+  grew(): void {
+    this.calls.push("grew");
+  }
+  surfaced(): void {
+    this.calls.push("surfaced");
+  }
+  progress({ time, paused }: Progress): void {
+    this.calls.push(`progress ${time} ${paused ? "paused" : "running"}`);
+  }
+  done(outcome: Outcome | null, summary: Summary, hash?: string | null): void {
+    this.calls.push(`done ${outcome} ${summary.ledger} ${hash}`);
+  }
+  failed(message: string, refused?: string[]): void {
+    this.calls.push(`failed ${message}${refused ? ` of ${refused}` : ""}`);
+  }
+  lost(reason: string): void {
+    this.calls.push(`lost ${reason}`);
+  }
+  found(): void {
+    this.calls.push("found");
+  }
 }

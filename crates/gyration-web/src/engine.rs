@@ -1,0 +1,261 @@
+//! A scene that runs slice by slice, as it is asked for, and what it has to tell.
+
+use gyration_page::store::{Cursor, Message, Store};
+use gyration_page::{FirstRow, SceneHash, WatchedRun, progress};
+use gyration_record::RecordError;
+use gyration_scene::Scene;
+use gyration_sim::events::Event;
+use gyration_sim::{Monitor, Outcome, Progress, Provenance, Reason, Simulation, Sink};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// What is to be run.
+#[derive(Debug, Deserialize)]
+struct Wanted {
+    /// What the scene is called.
+    name: String,
+    /// Its text.
+    scene: String,
+    /// Overrides as of `--set`.
+    #[serde(default)]
+    set: Vec<String>,
+}
+
+/// How a run stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Standing {
+    /// There is more to do.
+    GoesOn = 0,
+    /// It is over, or there is none.
+    Ended = 1,
+    /// It cannot go on; why is among the messages.
+    Failed = 2,
+}
+
+/// Runs one scene after the other.
+#[derive(Default)]
+pub struct Engine {
+    store: Store,
+    cursor: Cursor,
+    run: Option<Run>,
+}
+
+/// A run under way.
+struct Run {
+    scene: Scene,
+    simulation: Simulation,
+    hash: Option<SceneHash>,
+}
+
+impl Engine {
+    /// Begins what a text in JSON asks for, in the place of the run before; else that goes on, and why is among the
+    /// messages.
+    pub fn open(&mut self, wanted: &[u8]) -> bool {
+        let begun = serde_json::from_slice::<Wanted>(wanted).map_err(|error| (error.to_string(), None));
+        let begun = begun.and_then(|wanted| self.begin(&wanted).map_err(|words| (words, Some(wanted.set))));
+        match begun {
+            Ok(run) => {
+                self.run = Some(run);
+                true
+            }
+            Err((message, set)) => {
+                let mut problem = json!({ "message": message });
+                if let Some(set) = set {
+                    problem["set"] = json!(set);
+                }
+                self.store.problem(problem);
+                false
+            }
+        }
+    }
+
+    fn begin(&mut self, wanted: &Wanted) -> Result<Run, String> {
+        let name = format!("{}.toml", wanted.name);
+        let scene = Scene::parse(&name, &wanted.scene, Path::new(""), &wanted.set);
+        let scene = scene.and_then(gyration_sim::complete).map_err(|errors| errors.to_string())?;
+        let watched = WatchedRun::of(&scene, &provenance());
+        let mut first = FirstRow::default();
+        let simulation = watched.begun(&mut first)?;
+        watched.publish(&mut self.store);
+        let mut hash = watched.hash();
+        if let Some((time, row)) = first.0 {
+            let told = Publisher { store: &mut self.store, hash: &mut hash }.row(time, &row);
+            told.map_err(|error| error.to_string())?;
+        }
+        Ok(Run { scene, simulation, hash })
+    }
+
+    /// Goes on for so many evaluations of the rates, and some more until a step is whole.
+    pub fn advance(&mut self, evaluations: u64) -> Standing {
+        let Self { store, run: under_way, .. } = self;
+        let Some(run) = under_way else { return Standing::Ended };
+        let most = run.simulation.statistics().rate_evaluations.saturating_add(evaluations);
+        let mut slice = Slice { most, progress: None };
+        let ran = run.simulation.run(&mut Publisher { store, hash: &mut run.hash }, &mut slice);
+        match (ran, slice.progress) {
+            (Ok(outcome), Some(progress)) if is_asked(&outcome) => {
+                store.progress(progress);
+                Standing::GoesOn
+            }
+            (Ok(outcome), _) => {
+                if let Some(Run { scene, mut simulation, hash }) = under_way.take() {
+                    WatchedRun::of(&scene, &provenance()).finish(store, &mut simulation, outcome, (None, hash));
+                }
+                Standing::Ended
+            }
+            (Err(error), _) => {
+                store.problem(json!({ "message": error.to_string() }));
+                *under_way = None;
+                Standing::Failed
+            }
+        }
+    }
+
+    /// The messages since the last call, as frames: u32 kind (0 text, 1 binary), u32 length, the bytes, zeros up to a
+    /// multiple of eight; little-endian.
+    pub fn frames(&mut self) -> Vec<u8> {
+        let mut frames = Vec::new();
+        loop {
+            let messages = self.store.take(&mut self.cursor);
+            if messages.is_empty() {
+                return frames;
+            }
+            messages.into_iter().for_each(|message| append(&mut frames, message));
+        }
+    }
+}
+
+fn append(frames: &mut Vec<u8>, message: Message) {
+    let (kind, bytes) = match message {
+        Message::Text(text) => (0_u32, text.into_bytes()),
+        Message::Binary(bytes) => (1, bytes),
+    };
+    // A message has two megabytes at most.
+    frames.extend(kind.to_le_bytes());
+    frames.extend((bytes.len() as u32).to_le_bytes());
+    frames.extend(bytes);
+    frames.resize(frames.len().next_multiple_of(8), 0);
+}
+
+fn provenance() -> Provenance {
+    Provenance {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        commit: option_env!("GYRATION_COMMIT").map(str::to_owned),
+    }
+}
+
+fn is_asked(outcome: &Outcome) -> bool {
+    matches!(outcome, Outcome::Stopped(stop) if stop.reason == Reason::Interrupted)
+}
+
+/// Publishes rows and events.
+struct Publisher<'a> {
+    store: &'a mut Store,
+    hash: &'a mut Option<SceneHash>,
+}
+
+impl Sink for Publisher<'_> {
+    fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
+        if let Some(hash) = self.hash {
+            hash.add_row(time, row);
+        }
+        self.store.row(time, row);
+        Ok(())
+    }
+
+    fn event(&mut self, event: &Event) -> Result<(), RecordError> {
+        let Event { time, kind, body } = *event;
+        self.store.event(gyration_record::Event { time, kind, body: Some(body) });
+        Ok(())
+    }
+}
+
+/// Ends a slice after so many evaluations of the run; where it was then.
+struct Slice {
+    most: u64,
+    progress: Option<Value>,
+}
+
+impl Monitor for Slice {
+    fn after_step(&mut self, now: &Progress) -> Option<Reason> {
+        if now.statistics.rate_evaluations < self.most {
+            return None;
+        }
+        self.progress = Some(progress(now));
+        Some(Reason::Interrupted)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gyration_sim::{Job, RecordingEnd, Unwatched};
+
+    fn wanted(name: &str, set: &[&str]) -> Vec<u8> {
+        let text = gyration_scene::gallery_scene(name).unwrap();
+        json!({ "name": name, "scene": text, "set": set }).to_string().into_bytes()
+    }
+
+    /// The texts among some frames.
+    fn texts(frames: &[u8]) -> Vec<Value> {
+        let (mut texts, mut rest) = (Vec::new(), frames);
+        while let Some((head, behind)) = rest.split_at_checked(8) {
+            let number = |at: usize| u32::from_le_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]) as usize;
+            if number(0) == 0 {
+                texts.push(serde_json::from_slice(&behind[..number(4)]).unwrap());
+            }
+            rest = &behind[number(4).next_multiple_of(8)..];
+        }
+        texts
+    }
+
+    /// Runs to the end in slices; the last text, and how many slices.
+    fn run(engine: &mut Engine, slice: u64) -> (Value, usize) {
+        let (mut slices, mut all) = (1, Vec::new());
+        while engine.advance(slice) == Standing::GoesOn {
+            slices += 1;
+            all.extend(engine.frames());
+        }
+        all.extend(engine.frames());
+        (texts(&all).pop().unwrap(), slices)
+    }
+
+    /// Of bodies that deform the page is given more than the scene records, of those that meet many islands run.
+    #[test]
+    fn slices_leave_no_trace_and_the_hash_is_that_of_the_recording() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, end) in [("elastic-bounce", "time.end=1"), ("dice-pair", "time.end=0.1")] {
+            let scene = gyration_sim::open(name, &[end.to_owned()]).unwrap();
+            let job = Job::of(&scene, &provenance());
+            let RecordingEnd::Ran(told) = job.record(&folder.path().join(name), &mut Unwatched).unwrap() else {
+                panic!("{name} had been run")
+            };
+            let mut counts = Vec::new();
+            for slice in [100, u64::MAX] {
+                let mut engine = Engine::default();
+                assert!(engine.open(&wanted(name, &[end])));
+                let (done, slices) = run(&mut engine, slice);
+                assert_eq!((&done["type"], &done["hash"]), (&json!("done"), &json!(told.row_hash)), "{name}, {slice}");
+                counts.push(slices);
+            }
+            assert!(counts[0] > 3 && counts[1] == 1, "{name}: {counts:?} slices");
+        }
+    }
+
+    #[test]
+    fn a_run_goes_on_where_another_is_refused() {
+        let mut engine = Engine::default();
+        assert!(engine.open(&wanted("bounce", &["time.end=1"])));
+        assert_eq!(engine.advance(20), Standing::GoesOn);
+        engine.frames();
+        assert!(!engine.open(&wanted("bounce", &["time.end=-1"])));
+        let refused = texts(&engine.frames()).pop().unwrap();
+        assert_eq!((&refused["type"], &refused["set"]), (&json!("error"), &json!(["time.end=-1"])));
+        assert!(refused["message"].as_str().unwrap().contains('^'), "{refused}");
+        assert!(!engine.open(b"no scene"));
+        assert_eq!(texts(&engine.frames())[0]["type"], "error");
+        assert_eq!(run(&mut engine, 1000).0["type"], "done");
+        assert_eq!(engine.advance(1), Standing::Ended);
+    }
+}
