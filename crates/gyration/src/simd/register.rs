@@ -6,7 +6,7 @@
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 /// Logical lanes: the widest registers hold as many numbers.
 pub(crate) const WIDTH: usize = 8;
@@ -15,8 +15,19 @@ pub(crate) const WIDTH: usize = 8;
 pub(crate) type Row = [f64; WIDTH];
 
 /// Calls the work with the widest instruction set that this processor has.
+#[cfg(not(all(target_family = "wasm", target_feature = "simd128")))]
 pub(crate) fn dispatch<W: WithSimd>(work: W) -> W::Output {
-    Arch::new().dispatch(work)
+    pulp::Arch::new().dispatch(work)
+}
+
+/// Calls the work with the registers of 128 bits that the module is built for: a browser without them refuses all of
+/// it, and one version of each work is half of the bytes.
+#[cfg(all(target_family = "wasm", target_feature = "simd128"))]
+pub(crate) fn dispatch<W: WithSimd>(work: W) -> W::Output {
+    match pulp::wasm::Simd128::try_new() {
+        Some(simd) => Simd::vectorize(simd, work),
+        None => unreachable!("the module is built for these registers"),
+    }
 }
 
 /// The registers that make up a row.
