@@ -41,6 +41,8 @@ export interface Surroundings {
   begun(recording: Recording): boolean;
   /** A run has ended, with the hash of its numbers. */
   done(hash: string | null | undefined): void;
+  /** A run may have failed: if so, it has no end. */
+  failed(): void;
 }
 
 export class App implements Listener {
@@ -196,6 +198,7 @@ export class App implements Listener {
   failed(message: string, refused?: string[]): void {
     // What a slider asked for is told beside it.
     if (!(refused && this.sliders?.refuse(refused, message))) this.banner.fail(message);
+    if (!refused) this.around?.failed();
   }
 
   lost(reason: string): void {

@@ -17,21 +17,10 @@ use std::io;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 /// The module as cargo names it.
 const MODULE: &str = "gyration_web.wasm";
-/// Scenes that take longer natively [s] are not run again in the module by the tests.
-const SHORT: f64 = 1.0;
-
-/// A scene that has been run.
-struct Ran {
-    hash: String,
-    /// Wall time [s].
-    took: f64,
-}
-
 /// Builds the site and tests it.
 pub fn run() -> ExitCode {
     let mut steps = Steps::default();
@@ -47,6 +36,10 @@ fn build(steps: &mut Steps) {
     let site = target_directory().join("site");
     let mut module = cargo();
     module.args(["build", "--profile", "web", "--target", TARGET, "--package", "gyration-web"]);
+    // The site tells which commit it is of.
+    if let Some(commit) = commit() {
+        module.env("GYRATION_COMMIT", commit);
+    }
     let mut native = cargo();
     native.args(["build", "--release", "--package", "gyration-cli"]);
     let is_built = steps.run("the module", &mut module)
@@ -60,19 +53,17 @@ fn build(steps: &mut Steps) {
         return;
     }
     let program = target_directory().join("release").join(crate::PROGRAM);
-    let ran = match filled(&site, &program) {
-        Ok(ran) => ran,
-        Err(reason) => return steps.complain(reason),
-    };
-    let short: Vec<&str> = ran.iter().filter(|(_, ran)| ran.took < SHORT).map(|(name, _)| name.as_str()).collect();
+    if let Err(reason) = filled(&site, &program) {
+        return steps.complain(reason);
+    }
     let Some(browser) = viewer::browser(steps) else { return };
     let mut test = viewer::npm();
-    test.args(["run", "test:site"]).env("GYRATION_SITE", &site).env("GYRATION_SITE_SCENES", short.join(" "));
+    test.args(["run", "test:site"]).env("GYRATION_SITE", &site);
     steps.run_tests("the site", test.env("GYRATION_CHROMIUM", browser).env("NO_COLOR", "1"));
 }
 
 /// Puts module, gallery and hashes beside the page.
-fn filled(site: &Path, program: &Path) -> Result<BTreeMap<String, Ran>, String> {
+fn filled(site: &Path, program: &Path) -> Result<(), String> {
     let module = target_directory().join(TARGET).join("web").join(MODULE);
     fs::copy(&module, site.join("engine.wasm")).map_err(|error| cannot(&module, &error))?;
     let scenes = gallery::listed(Command::new(program))?;
@@ -88,24 +79,21 @@ fn filled(site: &Path, program: &Path) -> Result<BTreeMap<String, Ran>, String> 
         fs::write(&path, text).map_err(|error| cannot(&path, &error))
     };
     write("gallery.json", format!("[{}]\n", entries.join(",\n")))?;
-    let ran = hashed(scenes.into_iter().map(|(name, _)| name), program)?;
-    let hashes = ran.iter().map(|(name, ran)| format!("{}:{}", json::quoted(name), json::quoted(&ran.hash)));
-    write("hashes.json", format!("{{{}}}\n", hashes.collect::<Vec<_>>().join(",\n")))?;
-    Ok(ran)
+    let hashes = hashed(scenes.into_iter().map(|(name, _)| name), program)?;
+    let hashes = hashes.iter().map(|(name, hash)| format!("{}:{}", json::quoted(name), json::quoted(hash)));
+    write("hashes.json", format!("{{{}}}\n", hashes.collect::<Vec<_>>().join(",\n")))
 }
 
 /// Runs the scenes with the native program.
-fn hashed(names: impl Iterator<Item = String> + Send, program: &Path) -> Result<BTreeMap<String, Ran>, String> {
+fn hashed(names: impl Iterator<Item = String> + Send, program: &Path) -> Result<BTreeMap<String, String>, String> {
     let folder = target_directory().join("site-runs");
     fs::create_dir_all(&folder).map_err(|error| cannot(&folder, &error))?;
     let all = Mutex::new(BTreeMap::new());
     parallel::each(names, |name| {
-        let began = Instant::now();
         let hash = hash_of(program, &name, &folder.join(&name));
-        let ran = hash.map(|hash| Ran { hash, took: began.elapsed().as_secs_f64() });
-        all.lock().unwrap_or_else(PoisonError::into_inner).insert(name, ran);
+        all.lock().unwrap_or_else(PoisonError::into_inner).insert(name, hash);
     });
-    all.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().map(|(name, ran)| Ok((name, ran?))).collect()
+    all.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().map(|(name, hash)| Ok((name, hash?))).collect()
 }
 
 fn hash_of(program: &Path, name: &str, recording: &Path) -> Result<String, String> {
@@ -116,6 +104,13 @@ fn hash_of(program: &Path, name: &str, recording: &Path) -> Result<String, Strin
         return Err(format!("`{name}`: {}", String::from_utf8_lossy(&output.stderr)));
     }
     row_hash(recording)
+}
+
+/// The commit at hand.
+fn commit() -> Option<String> {
+    let output = Command::new("git").args(["rev-parse", "HEAD"]).current_dir(root()).output().ok()?;
+    let commit = String::from_utf8(output.stdout).ok().filter(|_| output.status.success())?;
+    Some(commit.trim().to_owned())
 }
 
 fn cannot(path: &Path, error: &io::Error) -> String {

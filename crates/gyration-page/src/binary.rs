@@ -1,4 +1,4 @@
-//! Binary messages of the websocket: a JSON head, then numbers, aligned so that the page need not copy them.
+//! Binary messages to a page: a JSON head, then numbers, aligned so that the page need not copy them.
 //!
 //! ```text
 //! u32 length L of the head, little-endian │ head, padded with spaces to 4 + L ≡ 0 mod 8 │ payload

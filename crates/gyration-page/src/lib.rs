@@ -17,4 +17,4 @@ pub mod header;
 pub mod store;
 mod watched;
 
-pub use watched::{FirstRow, SceneHash, WatchedRun, progress};
+pub use watched::{FirstRow, SceneHash, WatchedRun, finish, progress};

@@ -12,7 +12,7 @@ use std::ops::Range;
 use std::time::Duration;
 
 /// Numbers of all rows together at most, 200 MB: a longer run is sampled more coarsely.
-const MOST_NUMBERS: usize = 50_000_000;
+const MOST_NUMBERS: u64 = 50_000_000;
 
 /// What is to be run of a scene, with what the page shows beside what the scene records.
 pub struct WatchedRun<'a> {
@@ -74,7 +74,7 @@ impl<'a> WatchedRun<'a> {
         store.begin(&header.to_json(), fixed.collect(), strides);
     }
 
-    /// What hashes its rows; none where rows are left out.
+    /// The hash before its first row; none where rows are left out.
     pub fn hash(&self) -> Option<SceneHash> {
         if self.thinned.is_some() {
             return None;
@@ -85,22 +85,22 @@ impl<'a> WatchedRun<'a> {
             end += array.row_len();
         }
         let place = |array: &ArraySpec| Some(all.iter().find(|(name, _)| **name == array.name)?.1.clone());
-        Some(SceneHash { hash: RowHash::default(), places: self.recorded.iter().filter_map(place).collect() })
+        Some(SceneHash { hash: RowHash::default(), places: self.recorded.iter().map(place).collect::<Option<_>>()? })
     }
+}
 
-    /// Tells the store how it ended, in so much time [s], if that is known.
-    pub fn finish(
-        &self,
-        store: &mut Store,
-        simulation: &mut Simulation,
-        outcome: Outcome,
-        (elapsed, hash): (Option<Duration>, Option<SceneHash>),
-    ) {
-        let summary = RunSummary::of(self.job.model, simulation, outcome, elapsed).attributes();
-        let outcome = summary.get("outcome").cloned().unwrap_or(Value::Null);
-        let hash = hash.map(|hash| hash.hash.to_string());
-        store.finish(json!({ "type": "done", "outcome": outcome, "summary": summary, "hash": hash }));
-    }
+/// Tells the store how a run has ended, in so much time [s], if that is known.
+pub fn finish(
+    store: &mut Store,
+    simulation: &mut Simulation,
+    outcome: Outcome,
+    (elapsed, hash): (Option<Duration>, Option<SceneHash>),
+) {
+    let model = simulation.model().clone();
+    let summary = RunSummary::of(&model, simulation, outcome, elapsed).attributes();
+    let outcome = summary.get("outcome").cloned().unwrap_or(Value::Null);
+    let hash = hash.map(|hash| hash.hash.to_string());
+    store.finish(json!({ "type": "done", "outcome": outcome, "summary": summary, "hash": hash }));
 }
 
 impl SceneHash {
@@ -127,12 +127,17 @@ pub fn progress(progress: &Progress) -> Value {
 fn thin(job: &mut Job, layout: &Layout) -> Option<(usize, usize)> {
     let numbers: usize = layout.arrays.iter().map(ArraySpec::row_len).sum();
     let samples = (job.plan.end / job.plan.sample).ceil() as usize + 1;
-    let every = samples.saturating_mul(numbers).div_ceil(MOST_NUMBERS);
+    let every = thinning(samples, numbers);
     if every <= 1 {
         return None;
     }
     job.plan.sample *= every as f64;
     Some((samples.div_ceil(every), samples))
+}
+
+/// Of how many samples one is kept. The product needs 64 bits, which a page's own sizes lack.
+fn thinning(samples: usize, numbers: usize) -> usize {
+    (samples as u64).saturating_mul(numbers as u64).div_ceil(MOST_NUMBERS) as usize
 }
 
 /// Keeps the first row until the run is known to have one.
@@ -143,5 +148,17 @@ impl Sink for FirstRow {
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
         self.0 = Some((time, row.to_vec()));
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_kept_fits_whatever_the_size_of_a_word() {
+        assert_eq!(thinning(1001, 60), 1);
+        // 6e9 numbers are more than 32 bits count.
+        assert_eq!(thinning(100_000_000, 60), 120);
     }
 }

@@ -6,6 +6,7 @@
 //! replaced as a whole; the hash tells damage of the disk, not of a crash.
 
 use crate::error::RecordError;
+use crate::row_hash::{FNV_START, fnv_1a};
 use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"GYRCKPT1";
@@ -52,7 +53,7 @@ impl Checkpoint {
 }
 
 fn hash(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3))
+    fnv_1a(FNV_START, bytes)
 }
 
 #[cfg(test)]

@@ -163,8 +163,7 @@ impl Recording {
 
     /// The arrays that grow with time, in the order of a row; the time itself apart.
     pub fn growing(&self) -> impl Iterator<Item = &ArrayInfo> {
-        let grows = |array: &&ArrayInfo| array.dims.first().is_some_and(|dim| dim == "time");
-        self.arrays().iter().filter(grows).filter(|array| array.name != "time")
+        self.arrays().iter().filter(|array| array.grows_with("time") && array.name != "time")
     }
 
     /// Names of the columns in the order of the CSV, which puts `t` before them.

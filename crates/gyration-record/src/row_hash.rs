@@ -1,11 +1,13 @@
 //! The rows of a run in one word, by which two runs are told apart, whoever has made them.
 
+use crate::array::ArrayInfo;
 use crate::error::RecordError;
 use crate::recording::Recording;
 use std::fmt;
 use std::ops::Range;
 
-const START: u64 = 0xcbf2_9ce4_8422_2325;
+/// FNV-1a of no bytes.
+pub(crate) const FNV_START: u64 = 0xcbf2_9ce4_8422_2325;
 const PRIME: u64 = 0x0100_0000_01b3;
 /// Numbers that are in memory at a time.
 const PORTION: usize = 1 << 16;
@@ -19,16 +21,14 @@ pub struct RowHash(u64);
 
 impl Default for RowHash {
     fn default() -> Self {
-        Self(START)
+        Self(FNV_START)
     }
 }
 
 impl RowHash {
     /// Goes on with some numbers of a row.
     pub fn add(&mut self, numbers: &[f64]) {
-        for byte in numbers.iter().flat_map(|number| number.to_le_bytes()) {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(PRIME);
-        }
+        self.0 = numbers.iter().fold(self.0, |hash, number| fnv_1a(hash, &number.to_le_bytes()));
     }
 
     /// Goes on with a row.
@@ -43,7 +43,7 @@ impl RowHash {
     /// Those of reading.
     pub fn of_recording(recording: &Recording, rows: usize) -> Result<Self, RecordError> {
         let names: Vec<&str> = recording.growing().map(|array| &*array.name).collect();
-        let width: usize = recording.growing().map(|array| array.shape.iter().skip(1).product::<usize>()).sum();
+        let width: usize = recording.growing().map(ArrayInfo::row_len).sum();
         let portion = (PORTION / (width + 1)).max(1);
         let mut hash = Self::default();
         for first in (0..rows).step_by(portion) {
@@ -61,6 +61,11 @@ impl RowHash {
         }
         Ok(hash)
     }
+}
+
+/// FNV-1a of 64 bits, gone on with some bytes.
+pub(crate) fn fnv_1a(hash: u64, bytes: &[u8]) -> u64 {
+    bytes.iter().fold(hash, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(PRIME))
 }
 
 impl fmt::Display for RowHash {

@@ -144,9 +144,10 @@ impl<'a> Job<'a> {
             return Ok(RecordingEnd::AlreadyFinished(recorded));
         }
         let resumed = Writer::resume_finished(path, &RunSummary::ATTRIBUTES)?;
+        // Once more, now that nobody else writes.
+        let hash = RowHash::of_recording(&Recording::open(path)?, resumed.rows)?;
         self.interruption().within(|| {
             let simulation = Simulation::resume(self.model, self.start, self.plan, &resumed.checkpoint)?;
-            let hash = RowHash::of_recording(&recording, resumed.rows)?;
             let sink = RecordingSink::new(self.model, resumed.writer, hash);
             self.finish(path, simulation, sink, watch)
         })
@@ -173,9 +174,9 @@ impl<'a> Job<'a> {
             false => Interruption::default().after(Some(TO_TELL)),
         };
         let mut summary = told.within(|| RunSummary::of(self.model, &mut simulation, outcome, elapsed));
-        summary.row_hash = Some(sink.hash.to_string());
         let checkpoint = simulation.checkpoint();
         if summary.outcome.is_final() {
+            summary.row_hash = Some(sink.hash.to_string());
             summary.warnings = Remarks::without_fluid(self.model, self.start, self.plan.tolerance.rtol).warnings;
             if LeftOut::may_be(self.model) {
                 // What came near is asked of the rows: they must be there.

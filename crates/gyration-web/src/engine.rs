@@ -1,7 +1,7 @@
 //! A scene that runs slice by slice, as it is asked for, and what it has to tell.
 
 use gyration_page::store::{Cursor, Message, Store};
-use gyration_page::{FirstRow, SceneHash, WatchedRun, progress};
+use gyration_page::{FirstRow, SceneHash, WatchedRun, finish, progress};
 use gyration_record::RecordError;
 use gyration_scene::Scene;
 use gyration_sim::events::Event;
@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// What is to be run.
 #[derive(Debug, Deserialize)]
-struct Wanted {
+struct Asked {
     /// What the scene is called.
     name: String,
     /// Its text.
@@ -43,7 +43,6 @@ pub struct Engine {
 
 /// A run under way.
 struct Run {
-    scene: Scene,
     simulation: Simulation,
     hash: Option<SceneHash>,
 }
@@ -51,9 +50,9 @@ struct Run {
 impl Engine {
     /// Begins what a text in JSON asks for, in the place of the run before; else that goes on, and why is among the
     /// messages.
-    pub fn open(&mut self, wanted: &[u8]) -> bool {
-        let begun = serde_json::from_slice::<Wanted>(wanted).map_err(|error| (error.to_string(), None));
-        let begun = begun.and_then(|wanted| self.begin(&wanted).map_err(|words| (words, Some(wanted.set))));
+    pub fn open(&mut self, asked: &[u8]) -> bool {
+        let begun = serde_json::from_slice::<Asked>(asked).map_err(|error| (error.to_string(), None));
+        let begun = begun.and_then(|asked| self.begin(&asked).map_err(|words| (words, Some(asked.set))));
         match begun {
             Ok(run) => {
                 self.run = Some(run);
@@ -70,9 +69,9 @@ impl Engine {
         }
     }
 
-    fn begin(&mut self, wanted: &Wanted) -> Result<Run, String> {
-        let name = format!("{}.toml", wanted.name);
-        let scene = Scene::parse(&name, &wanted.scene, Path::new(""), &wanted.set);
+    fn begin(&mut self, asked: &Asked) -> Result<Run, String> {
+        let name = format!("{}.toml", asked.name);
+        let scene = Scene::parse(&name, &asked.scene, Path::new(""), &asked.set);
         let scene = scene.and_then(gyration_sim::complete).map_err(|errors| errors.to_string())?;
         let watched = WatchedRun::of(&scene, &provenance());
         let mut first = FirstRow::default();
@@ -83,7 +82,7 @@ impl Engine {
             let told = Publisher { store: &mut self.store, hash: &mut hash }.row(time, &row);
             told.map_err(|error| error.to_string())?;
         }
-        Ok(Run { scene, simulation, hash })
+        Ok(Run { simulation, hash })
     }
 
     /// Goes on for so many evaluations of the rates, and some more until a step is whole.
@@ -99,9 +98,8 @@ impl Engine {
                 Standing::GoesOn
             }
             (Ok(outcome), _) => {
-                if let Some(Run { scene, mut simulation, hash }) = under_way.take() {
-                    WatchedRun::of(&scene, &provenance()).finish(store, &mut simulation, outcome, (None, hash));
-                }
+                finish(store, &mut run.simulation, outcome, (None, run.hash.take()));
+                *under_way = None;
                 Standing::Ended
             }
             (Err(error), _) => {
@@ -131,7 +129,7 @@ fn append(frames: &mut Vec<u8>, message: Message) {
         Message::Text(text) => (0_u32, text.into_bytes()),
         Message::Binary(bytes) => (1, bytes),
     };
-    // A message has two megabytes at most.
+    // Of the memory of a page, which has 32 bits, no message is longer.
     frames.extend(kind.to_le_bytes());
     frames.extend((bytes.len() as u32).to_le_bytes());
     frames.extend(bytes);
@@ -192,7 +190,7 @@ mod tests {
     use super::*;
     use gyration_sim::{Job, RecordingEnd, Unwatched};
 
-    fn wanted(name: &str, set: &[&str]) -> Vec<u8> {
+    fn asked(name: &str, set: &[&str]) -> Vec<u8> {
         let text = gyration_scene::gallery_scene(name).unwrap();
         json!({ "name": name, "scene": text, "set": set }).to_string().into_bytes()
     }
@@ -234,7 +232,7 @@ mod tests {
             let mut counts = Vec::new();
             for slice in [100, u64::MAX] {
                 let mut engine = Engine::default();
-                assert!(engine.open(&wanted(name, &[end])));
+                assert!(engine.open(&asked(name, &[end])));
                 let (done, slices) = run(&mut engine, slice);
                 assert_eq!((&done["type"], &done["hash"]), (&json!("done"), &json!(told.row_hash)), "{name}, {slice}");
                 counts.push(slices);
@@ -246,10 +244,10 @@ mod tests {
     #[test]
     fn a_run_goes_on_where_another_is_refused() {
         let mut engine = Engine::default();
-        assert!(engine.open(&wanted("bounce", &["time.end=1"])));
+        assert!(engine.open(&asked("bounce", &["time.end=1"])));
         assert_eq!(engine.advance(20), Standing::GoesOn);
         engine.frames();
-        assert!(!engine.open(&wanted("bounce", &["time.end=-1"])));
+        assert!(!engine.open(&asked("bounce", &["time.end=-1"])));
         let refused = texts(&engine.frames()).pop().unwrap();
         assert_eq!((&refused["type"], &refused["set"]), (&json!("error"), &json!(["time.end=-1"])));
         assert!(refused["message"].as_str().unwrap().contains('^'), "{refused}");

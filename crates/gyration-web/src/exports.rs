@@ -1,5 +1,5 @@
-//! What a page calls, by names that are not mangled, which the language takes for unsafe. Elsewhere they have no such
-//! names, of which the system has some.
+//! Exports by plain names, which the language takes for unsafe. Natively the names stay mangled: `open` is a function
+//! of the C library.
 
 #![allow(unsafe_code, reason = "exported names")]
 

@@ -40,6 +40,10 @@ export class Desk implements Surroundings {
     return another;
   }
 
+  failed(): void {
+    this.verdict.clear();
+  }
+
   async done(hash: string | null | undefined): Promise<void> {
     const { subject, run } = this;
     const { shown } = run;

@@ -29,6 +29,11 @@ export class Verdict {
     this.element.replaceChildren("The hash of all numbers comes with the end of the run.");
   }
 
+  /** Promises nothing. */
+  clear(): void {
+    this.element.replaceChildren();
+  }
+
   /** A run has ended; null: rows were left out, so that it has no hash. */
   show(hash: string | null, expected: string | undefined): void {
     if (hash === null) {

@@ -168,7 +168,7 @@ fn tell(
 fn tell_finished(arguments: &RunArguments, path: &Path, attributes: &Attributes) -> Result<(), CliError> {
     let outcome = attributes.get("outcome_in_words").and_then(Value::as_str).unwrap_or("finished");
     if arguments.json {
-        let told = ["outcome", "statistics", "ledger", "largest_residual", "energy_in_play", "events"];
+        let told = ["outcome", "statistics", "ledger", "largest_residual", "energy_in_play", "events", "row_hash"];
         let told = told.iter().filter_map(|name| Some(((*name).to_owned(), attributes.get(*name)?.clone())));
         let mut value: Attributes = told.collect();
         value.insert("recording".into(), json!(shown(path)));

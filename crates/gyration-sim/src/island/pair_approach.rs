@@ -7,7 +7,7 @@
 //!   −r̈' = p̈_A − p̈_B + 2 ω × ṙ' + ω × (ω × r)
 //!
 //! and the axis of what the spin ω_i differs from ω is carried round, by which a point comes nearer with no more than
-//! r_i |n × (ω_i × ω)|. The rest of second order draws it to the axis, away from the plane.
+//! r_i |n × (ω_i × ω)|. The rest of second order draws points to the axis, as it does before a plane that stands still.
 //!
 //! A face along which an edge slides takes its plane along: with a plane that stands still its far end would soon be on
 //! the other side. So planes are tried that stand still, turn with A, and turn with B; the longest of these times
@@ -29,6 +29,9 @@ pub(crate) struct PairApproach<'a> {
     radii: [f64; 2],
     /// ω_A and ω_B [rad/s].
     spins: [Vec3; 2],
+    /// Whether P̈ is known along each direction: of a body that deforms, as seen from a support that turns, its size
+    /// is.
+    may_turn: bool,
     /// From B to A.
     normal: Vec3,
     /// How much more B may accelerate towards A [m/s²].
@@ -56,6 +59,7 @@ impl<'a> PairApproach<'a> {
             surfaces: [0, 1].map(|side| solids[side].part(pair.parts[side])),
             radii: [0, 1].map(radius),
             spins: ends.map(|end| end.motion.angular_velocity()),
+            may_turn: bend == 0.0 || ends.iter().all(|end| end.stretching.is_none()),
             normal: *normal,
             bend,
             centers: Approach::of(ends[0], ends[1]).bent_more(bend),
@@ -72,10 +76,11 @@ impl<'a> PairApproach<'a> {
         let turning = TURN / standing[0].spin.max(standing[1].spin);
         let straight = |[one, other]: &[PlaneApproach; 2]| {
             let apart = PART * first_root(longest / PART, |t| one.smallest_gap(t) + other.smallest_gap(t));
-            apart.min(turning).min(longest)
+            // As seen from a plane that turns they turn otherwise.
+            apart.min(turning).min(TURN / one.spin.max(other.spin)).min(longest)
         };
         let mut step = clear.max(straight(&standing));
-        for spin in &self.spins {
+        for spin in self.spins.iter().filter(|_| self.may_turn) {
             if usual > 0.0 && step >= usual.min(longest) {
                 break;
             }

@@ -2,7 +2,7 @@
 //! numbers asked for, the other runs. A number that is refused stops nothing.
 
 use super::shared::LiveState;
-use gyration_page::{FirstRow, SceneHash, WatchedRun, progress};
+use gyration_page::{FirstRow, WatchedRun, finish, progress};
 use gyration_record::RecordError;
 use gyration_scene::Scene;
 use gyration_sim::events::Event;
@@ -75,15 +75,14 @@ fn run_once(shared: &LiveState, subject: &Subject, scene: &Scene) -> Result<(), 
     let mut first = FirstRow::default();
     let mut simulation = watched.begun(&mut first)?;
     watched.publish(&mut shared.store());
-    let mut sink = Publisher { shared, told: Instant::now(), hash: watched.hash() };
+    let mut sink = Publisher { shared, told: Instant::now() };
     let told = first.0.map_or(Ok(()), |(time, row)| sink.row(time, &row));
     let began = Instant::now();
     let mut watch = LiveMonitor { shared, told: Instant::now() };
     let outcome = told.map_err(RunError::from).and_then(|()| simulation.run(&mut sink, &mut watch));
     let outcome = outcome.map_err(|error| error.to_string())?;
     if !is_superseded(&outcome) {
-        let told = (Some(began.elapsed()), sink.hash);
-        watched.finish(&mut shared.store(), &mut simulation, outcome, told);
+        finish(&mut shared.store(), &mut simulation, outcome, (Some(began.elapsed()), None));
     }
     Ok(())
 }
@@ -97,14 +96,10 @@ fn is_superseded(outcome: &Outcome) -> bool {
 struct Publisher<'a> {
     shared: &'a LiveState,
     told: Instant,
-    hash: Option<SceneHash>,
 }
 
 impl Sink for Publisher<'_> {
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
-        if let Some(hash) = &mut self.hash {
-            hash.add_row(time, row);
-        }
         self.shared.store().row(time, row);
         Ok(())
     }
