@@ -21,6 +21,7 @@ use std::sync::{Mutex, PoisonError};
 const TARGET: &str = "wasm32-unknown-unknown";
 /// The module as cargo names it.
 const MODULE: &str = "gyration_web.wasm";
+
 /// Builds the site and tests it.
 pub fn run() -> ExitCode {
     let mut steps = Steps::default();

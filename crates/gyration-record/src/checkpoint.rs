@@ -6,7 +6,7 @@
 //! replaced as a whole; the hash tells damage of the disk, not of a crash.
 
 use crate::error::RecordError;
-use crate::row_hash::{FNV_START, fnv_1a};
+use crate::fnv::{FNV_START, fnv_1a};
 use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"GYRCKPT1";

@@ -26,6 +26,7 @@ mod error;
 mod event;
 pub mod export;
 mod file;
+mod fnv;
 mod layout;
 mod metadata;
 mod names;

@@ -2,20 +2,16 @@
 
 use crate::array::ArrayInfo;
 use crate::error::RecordError;
+use crate::fnv::{FNV_START, fnv_1a};
 use crate::recording::Recording;
 use std::fmt;
 use std::ops::Range;
 
-/// FNV-1a of no bytes.
-pub(crate) const FNV_START: u64 = 0xcbf2_9ce4_8422_2325;
-const PRIME: u64 = 0x0100_0000_01b3;
 /// Numbers that are in memory at a time.
 const PORTION: usize = 1 << 16;
 
 /// FNV-1a of 64 bits over the rows: of each the time, then the numbers of all arrays that grow with it, in order, as
-/// little-endian float64.
-///
-/// Source: Fowler, Noll, Vo, draft-eastlake-fnv. It tells a difference, not who made it.
+/// little-endian float64. It tells a difference, not who made it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RowHash(u64);
 
@@ -63,28 +59,8 @@ impl RowHash {
     }
 }
 
-/// FNV-1a of 64 bits, gone on with some bytes.
-pub(crate) fn fnv_1a(hash: u64, bytes: &[u8]) -> u64 {
-    bytes.iter().fold(hash, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(PRIME))
-}
-
 impl fmt::Display for RowHash {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:016x}", self.0)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_hash_is_fnv_1a() {
-        assert_eq!(RowHash::default().to_string(), "cbf29ce484222325");
-        // The bytes "foobar" have 85944171f73967e8; this is eight bytes, of the number whose bytes are "foobar\0\0".
-        let mut hash = RowHash::default();
-        hash.add(&[f64::from_le_bytes(*b"foobar\0\0")]);
-        let by_hand = (0..2).fold(0x8594_4171_f739_67e8_u64, |hash, _| hash.wrapping_mul(PRIME));
-        assert_eq!(hash, RowHash(by_hand));
     }
 }
