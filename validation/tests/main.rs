@@ -8,6 +8,7 @@ mod case_bands;
 mod case_bands_relations;
 mod case_bands_soft;
 mod case_bands_weightless;
+mod case_behaviour;
 mod case_bonds;
 mod case_bounded_friction;
 mod case_bounded_pairs;

@@ -4,6 +4,7 @@
 
 mod affine;
 mod affine_errors;
+mod behaviour;
 mod common;
 mod contractile;
 mod contractile_errors;

@@ -4,6 +4,7 @@
 
 mod absorb;
 mod affine;
+mod behaviour;
 mod body;
 mod bond;
 mod constraint;
@@ -216,6 +217,7 @@ pub(crate) fn assemble(
     let supports = AssembledSupports::of(partial, context.base, reporter);
     let AssembledBodies { all: mut assembled, starts } = AssembledBodies::of(partial, &supports, context, reporter);
     let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
+    behaviour::resolve(partial, &assembled, reporter);
     let (contacts, rules, rule_keys) = contact::attach(partial, &supports, &assembled, reporter);
     let anchored = assembled.iter().flatten().flat_map(|body| &body.springs).cloned();
     let cells = partial.lattice.as_ref().map(|written| Cells::of(written, reporter));

@@ -1,5 +1,6 @@
 //! `[[contact]]`: the laws by which bodies and supports touch, per unit area, powers of the gap d.
 
+use super::Behaviour;
 use crate::quantity::{Length, NonNegative, Positive, Pressure, SurfaceDamping, WORDS};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
@@ -22,6 +23,9 @@ pub struct Contact {
     /// each pair; without it they always do.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reach: Option<Reach>,
+    /// What the contact does, from which laws follow that are not written.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<Behaviour>,
     /// The area that tractions are per; it makes no difference to a rigid body.
     #[serde(default)]
     pub measure: Measure,

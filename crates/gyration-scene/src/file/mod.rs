@@ -5,6 +5,7 @@
 //! JSON, with every default in its place, they are the resolved form of a scene, which is again a scene.
 
 mod affine;
+mod behaviour;
 mod body;
 mod bond;
 mod contact;
@@ -26,6 +27,7 @@ mod time;
 mod world;
 
 pub use affine::{Affine, Couple, Entry, Frame, Gyroscopic, InternalFriction, LinearFriction};
+pub use behaviour::{Behaviour, Layer};
 pub use body::{Body, MassProperties, PointForce, Rigid, Spring};
 pub use bond::{Bond, BondDamping};
 pub use contact::{Adhesion, Contact, Damping, Friction, Measure, Reach, Repulsion};

@@ -20,6 +20,7 @@ mod geodesic;
 mod outline;
 mod points;
 mod polyhedron;
+mod sides;
 mod sphere;
 mod torus;
 mod triangulation;
