@@ -42,6 +42,14 @@ impl Key {
         matches!(&self.0[..], [Segment::Name(name), Segment::Index(_)] if name == array)
     }
 
+    /// The key at the root under which this is.
+    pub(crate) fn section(&self) -> Option<&str> {
+        match self.0.first()? {
+            Segment::Name(name) => Some(name),
+            Segment::Index(_) => None,
+        }
+    }
+
     /// Whether the other place is this one or lies inside of it.
     pub(crate) fn holds(&self, other: &Self) -> bool {
         other.0.starts_with(&self.0)

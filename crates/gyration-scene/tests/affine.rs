@@ -1,6 +1,6 @@
 //! What a deformable body in a scene becomes: materials, friction, loads, start, resolved form.
 
-use crate::common::{BLOCK, assert_resolves_to_itself, block, start};
+use crate::common::{BLOCK, TIME, assert_resolves_to_itself, block, start};
 use gyration::affine::{Gyration, Viscosity};
 use gyration::body::{Affine, BodyKind};
 use gyration::load::Couple;
@@ -292,4 +292,25 @@ fn what_is_recorded_on_request_stands_beside_the_plan() {
     assert_eq!(*origin, Vec3::new(0.0, 0.0, 0.02));
     assert_eq!((quantities.len(), quantities[9], quantities[21]), (22, Recorded::Stress, Recorded::Eshelby));
     assert_resolves_to_itself(&asked);
+}
+
+#[test]
+fn a_material_that_is_named_has_a_law_and_a_density() {
+    let shape = "name = \"b\"\nshape = { box = { size = [1, 1, 1] } }\n";
+    let scene = |lines: &str| {
+        let text = format!("{TIME}[[body]]\n{shape}{lines}\n");
+        Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"))
+    };
+    let rubber = scene("affine = { material = \"rubber\" }");
+    assert_resolves_to_itself(&rubber);
+    assert_eq!(rubber.resolved().pointer("/body/0/density").and_then(serde_json::Value::as_f64), Some(1100.0));
+    let law = Material::MooneyRivlin(MooneyRivlin { c1: 0.25e6, c2: 0.0, bulk: None });
+    assert_eq!(affine(&rubber).interior.material, Some(law));
+    let heavy = scene("affine = { material = \"steel\" }\nmass = 5");
+    assert_eq!(heavy.built().model.bodies[0].solid.mass.mass, 5.0);
+    let own = scene("contractile = { material = \"silicone\", contraction_viscosity = 50 }\ndensity = 900");
+    assert_eq!(own.built().model.bodies[0].solid.mass.mass, 900.0);
+    for name in ["nylon", "glass", "aluminium"] {
+        assert_resolves_to_itself(&scene(&format!("affine = {{ material = \"{name}\" }}")));
+    }
 }

@@ -24,6 +24,12 @@ pub(super) enum MassSource {
     Shape,
 }
 
+/// Whether neither the body nor its shape says what it weighs.
+pub(super) fn is_unknown(body: &Body) -> bool {
+    let is_said = body.density.is_some() || body.mass.is_some() || body.mass_properties.is_some();
+    !is_said && body.shape.as_ref().is_some_and(|shape| !weighs(shape, false))
+}
+
 impl MassSource {
     /// The source of a body's mass; notes a choice that is not exactly one.
     pub(super) fn of(body: &Placed<Body>, reporter: &mut Reporter<'_>) -> Option<Self> {

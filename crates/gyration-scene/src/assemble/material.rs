@@ -1,15 +1,37 @@
 //! Materials: from what the file calls them to energies; notes those without a stable rest state.
 
+use super::mass;
 use super::moduli::{Moduli, Ratios, WrittenModuli};
-use crate::check::Reporter;
+use crate::check::{PartialScene, Placed, Reporter};
 use crate::file::Material as Written;
 use crate::key::Key;
-use crate::quantity::{NonNegative, Positive, Pressure};
+use crate::quantity::{Density, NonNegative, Positive, Pressure};
 use gyration::material::{Fung, Hencky, Material, MooneyRivlin, NeoHookeanLog, Ogden, OgdenTerm, StVenantKirchhoff};
+
+/// Writes the laws that names of materials stand for, and their density where nothing says what a body weighs.
+pub(super) fn resolve_names(partial: &mut PartialScene) {
+    for Placed { value: body, .. } in &mut partial.bodies {
+        let contractile = body.contractile.iter_mut().map(|contractile| &mut contractile.affine);
+        let affine = body.affine.iter_mut().map(|affine| &mut **affine).chain(contractile);
+        let mut density = None;
+        for written in affine.filter_map(|affine| affine.material.as_mut()) {
+            if let Some((law, usual)) = written.named() {
+                *written = law;
+                density = Some(usual);
+            }
+        }
+        if mass::is_unknown(body) {
+            body.density = density.map(|density| Positive(Density(density)));
+        }
+    }
+}
 
 /// The material at a key.
 pub(super) fn material(written: &Written, key: &Key, reporter: &mut Reporter<'_>) -> Option<Material> {
     let (name, made) = match written {
+        Written::Rubber | Written::Silicone | Written::Nylon | Written::Glass | Written::Aluminium | Written::Steel => {
+            return material(&written.named()?.0, key, reporter);
+        }
         Written::MooneyRivlin(it) => {
             let bulk = it.bulk.map(|bulk| bulk.value());
             let made = MooneyRivlin { c1: it.c1.value(), c2: it.c2.value(), bulk };

@@ -7,14 +7,17 @@ use serde_json::Value as Json;
 /// What a body and a support with a shape have alike.
 const SHARED: [&str; 4] = ["name", "shape", "position", "orientation"];
 
+/// Words for it.
+const WORDS: [&str; 5] = ["fixed", "static", "immovable", "kinematic", "anchored"];
+
 /// Whether a key says that a body is fixed.
 pub(super) fn says(table: &Key, name: &str) -> bool {
-    name == "fixed" && table.is_item_of("body")
+    WORDS.contains(&name) && table.is_item_of("body")
 }
 
 /// The support in its place, as it is to be written.
-pub(super) fn help(body: &Table) -> String {
-    let is_false = body.get("fixed").is_some_and(|entry| entry.node.to_json() == Json::Bool(false));
+pub(super) fn help(word: &str, body: &Table) -> String {
+    let is_false = body.get(word).is_some_and(|entry| entry.node.to_json() == Json::Bool(false));
     if is_false {
         return "leave it out: a body is free to move".to_owned();
     }

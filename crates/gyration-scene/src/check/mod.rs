@@ -8,6 +8,7 @@ mod copies;
 mod ends;
 mod fixed;
 mod joints;
+mod meant;
 mod named;
 mod partial;
 mod placed;

@@ -3,6 +3,7 @@
 //! Goes on behind every error. The depth of the recursion is that of the tree, which the parsers limit.
 
 use super::fixed;
+use super::meant;
 use super::rule::{FieldRule, NumberLimits, Rule, Rules};
 use super::signal_help::as_expression;
 use crate::document::Diagnostics;
@@ -153,16 +154,28 @@ impl Walker<'_> {
             match fields.get(name) {
                 None if fixed::says(key, name) => {
                     let message = "a body that does not move is a support";
-                    self.diagnostics.at(entry.key_span, &place, message, fixed::help(table));
+                    self.diagnostics.at(entry.key_span, &place, message, fixed::help(name, table));
                 }
                 None => {
-                    let elsewhere = if *key == Key::root() { of_another_file(name) } else { None };
-                    let help = elsewhere.unwrap_or_else(|| suggest::fix(name, fields.keys().map(String::as_str), what));
+                    let help = self.help_with(name, key, fields, what);
                     self.diagnostics.at(entry.key_span, &place, format!("unknown key \"{name}\""), help);
                 }
                 Some(field) => self.visit(&entry.node, &place, field),
             }
         }
+    }
+
+    /// What to write for a key that is none.
+    fn help_with(&self, name: &str, key: &Key, fields: &BTreeMap<String, FieldRule>, what: &str) -> String {
+        let known = fields.keys().map(String::as_str);
+        let of_another_file = if *key == Key::root() { of_another_file(name) } else { None };
+        if of_another_file.is_none() && suggest::nearest(name, known.clone()).is_some() {
+            return suggest::fix(name, known, what);
+        }
+        of_another_file
+            .or_else(|| meant::meant(name, key))
+            .or_else(|| meant::elsewhere(name, key, self.rules))
+            .unwrap_or_else(|| suggest::fix(name, known, what))
     }
 
     fn limits(&mut self, number: f64, node: &Node, key: &Key, limits: NumberLimits, unit: &str) {

@@ -27,6 +27,60 @@ pub enum Material {
     Hencky(Hencky),
     /// κ |PᵀP − I|²; compressible.
     Orthogonality(Orthogonality),
+    /// Soft rubber: `neo_hookean`, E = 1.5 MPa, incompressible, 1100 kg/m³.
+    Rubber,
+    /// Silicone: `neo_hookean`, E = 2 MPa, incompressible, 1030 kg/m³.
+    Silicone,
+    /// Nylon: `hencky`, E = 2.7 GPa, ν = 0.39, 1140 kg/m³.
+    Nylon,
+    /// Glass: `hencky`, E = 70 GPa, ν = 0.23, 2500 kg/m³.
+    Glass,
+    /// Aluminium: `hencky`, E = 70 GPa, ν = 0.33, 2700 kg/m³.
+    Aluminium,
+    /// Steel: `hencky`, E = 200 GPa, ν = 0.3, 7850 kg/m³.
+    Steel,
+}
+
+impl Material {
+    /// The law and the density \[kg/m³\] that a name stands for; none of a law that is written.
+    ///
+    /// E, ν and density within the ranges of Gere, *Mechanics of Materials*, tables H-1 and H-2, and Callister,
+    /// *Materials Science and Engineering*, appendix B; silicone as Sylgard 184 by Johnston et al., *J. Micromech.
+    /// Microeng.* 24, 035017 (2014), and its data sheet.
+    pub(crate) fn named(&self) -> Option<(Self, f64)> {
+        let rubbery = |youngs_modulus: f64| {
+            Self::NeoHookean(NeoHookean {
+                shear: None,
+                bulk: None,
+                youngs_modulus: Some(Positive(Pressure(youngs_modulus))),
+                poissons_ratio: Some(0.5),
+            })
+        };
+        let stiff = |youngs_modulus: f64, ratio: f64| {
+            Self::Hencky(Hencky {
+                shear: None,
+                bulk: None,
+                youngs_modulus: Some(Positive(Pressure(youngs_modulus))),
+                poissons_ratio: Some(ratio),
+            })
+        };
+        match self {
+            Self::Rubber => Some((rubbery(1.5e6), 1100.0)),
+            Self::Silicone => Some((rubbery(2e6), 1030.0)),
+            Self::Nylon => Some((stiff(2.7e9, 0.39), 1140.0)),
+            Self::Glass => Some((stiff(70e9, 0.23), 2500.0)),
+            Self::Aluminium => Some((stiff(70e9, 0.33), 2700.0)),
+            Self::Steel => Some((stiff(200e9, 0.3), 7850.0)),
+            Self::MooneyRivlin(_)
+            | Self::NeoHookean(_)
+            | Self::Ogden(_)
+            | Self::Fung(_)
+            | Self::NeoHookeanLog(_)
+            | Self::StVenantKirchhoff(_)
+            | Self::Hencky(_)
+            | Self::Orthogonality(_) => None,
+        }
+    }
 }
 
 /// Mooney–Rivlin; shear modulus 2(c1 + c2).
