@@ -4,10 +4,12 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
+use clap_complete::engine::{ArgValueCompleter, CompletionCandidate, PathCompleter, ValueCompleter};
 use gyration_plot::PlotQuantity;
 #[cfg(feature = "study")]
 use gyration_plot::study::PlotKind;
 use gyration_sim::resistance::TRIANGLES_ALLOWED;
+use std::ffi::OsStr;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -67,20 +69,43 @@ pub enum Command {
     /// Find numbers of a scene, as α, β, ν of its contact laws, from measurements
     #[cfg(feature = "study")]
     Calibrate(Calibrate),
-    /// Print the JSON Schema of a scene
-    Schema,
-    /// Print the completions of a shell
+    /// Print the JSON Schema of a scene, a study or a file of measurements
+    Schema {
+        /// Of which files
+        #[arg(default_value = "scene")]
+        of: SchemaOf,
+    },
+    /// Print the completions of a shell, of the names of scenes and studies too: `source <(gyration completions bash)`
     Completions {
         /// The shell
         shell: Shell,
     },
+    /// Write the manual pages
+    Man {
+        /// Folder to write them into [default: the main page to stdout]
+        #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
+        folder: Option<PathBuf>,
+    },
+}
+
+/// Files that have a schema.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SchemaOf {
+    /// Scenes
+    Scene,
+    /// Studies, `gyration study`
+    #[cfg(feature = "study")]
+    Study,
+    /// Measurements, `gyration calibrate`
+    #[cfg(feature = "study")]
+    Calibration,
 }
 
 /// A scene, and what is changed in it.
 #[derive(Debug, Args)]
 pub struct SceneArguments {
     /// Path of a scene, or its name in the gallery
-    #[arg(value_name = "SCENE", value_hint = ValueHint::FilePath)]
+    #[arg(value_name = "SCENE", value_hint = ValueHint::FilePath, add = completer(scenes))]
     pub scene: String,
     /// Change a value of the scene, by name or by index from zero: body.die.velocity='[1,0,0]',
     /// contact.0.friction.beta=2
@@ -193,7 +218,7 @@ pub struct Bands {
 #[derive(Debug, Args)]
 pub struct ResistanceArguments {
     /// Path of a scene, or its name in the gallery; behind a colon one body of it
-    #[arg(value_name = "SCENE[:BODY]", value_hint = ValueHint::FilePath)]
+    #[arg(value_name = "SCENE[:BODY]", value_hint = ValueHint::FilePath, add = completer(scenes))]
     pub scene: String,
     /// Change a value of the scene
     #[arg(long = "set", value_name = "KEY=VALUE")]
@@ -227,7 +252,11 @@ pub struct New {
 #[derive(Debug, Args)]
 pub struct Scenes {
     /// Print the text of this scene
+    #[arg(add = completer(names_of_scenes))]
     pub name: Option<String>,
+    /// Print name and title of each as JSON
+    #[arg(long, conflicts_with = "name")]
+    pub json: bool,
 }
 
 /// `gyration import`
@@ -259,12 +288,15 @@ pub struct Export {
     /// What to write [default: by the ending of -o]
     #[arg(long)]
     pub format: Option<ExportFormat>,
-    /// File to write; - writes csv to stdout [default: STEM.csv, .npz, .pvd or .glb in the current folder]
+    /// File to write; - writes csv to stdout [default: STEM.csv, .npz, .pvd, .glb, .gif … in the current folder]
     #[arg(short, long, value_name = "PATH", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
     /// Take each N-th sample, and the last (vtk)
     #[arg(long, value_name = "N")]
     pub every: Option<NonZeroUsize>,
+    /// The time of the picture [s] (png) [default: the end]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub at: Option<f64>,
     /// Write what acts between two, a row a sample and pair (csv of a scene with record = { pairs = true })
     #[arg(long)]
     pub pairs: bool,
@@ -281,18 +313,24 @@ pub enum ExportFormat {
     Vtk,
     /// The motion as an animation, for viewers and modellers: STEM.glb
     Gltf,
+    /// The motion as pictures in one file: STEM.gif
+    Gif,
+    /// The motion as a film, by the program ffmpeg: STEM.mp4
+    Mp4,
+    /// The bodies at one time, --at: STEM.png
+    Png,
 }
 
 /// `gyration plot`
 #[derive(Debug, Args)]
 pub struct Plot {
-    /// Directory of a recording, or a scene
-    #[arg(value_name = "DIR|SCENE", value_hint = ValueHint::AnyPath)]
+    /// Directory of a recording, a scene, or the table of a study
+    #[arg(value_name = "DIR|SCENE", value_hint = ValueHint::AnyPath, add = completer(scenes))]
     pub source: String,
     /// What to draw, below each other [default: overview of a recording, laws of a scene]
     #[arg(value_name = "WHAT", value_parser = quantity())]
     pub what: Vec<PlotQuantity>,
-    /// File to write: .svg, .png or .pdf; - writes SVG to stdout [default: STEM-WHAT.svg in the current folder]
+    /// File to write: .svg, .png, .pdf or .gif; - writes SVG to stdout [default: STEM-WHAT.svg in the current folder]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
     /// The two measures of `stroke`, to the right and upwards, as columns of the CSV without the body, V_xx and Q_xx
@@ -321,7 +359,7 @@ pub struct ReportArguments {
 #[derive(Debug, Args)]
 pub struct ViewArguments {
     /// Directory of a recording, or a scene: its path or its name in the gallery
-    #[arg(value_name = "DIR|SCENE", value_hint = ValueHint::AnyPath)]
+    #[arg(value_name = "DIR|SCENE", value_hint = ValueHint::AnyPath, add = completer(scenes))]
     pub source: String,
     /// Port of 127.0.0.1 to listen on [default: a free one]
     #[arg(long, value_name = "N")]
@@ -339,7 +377,7 @@ pub struct ViewArguments {
 #[derive(Debug, Args)]
 pub struct StudyArguments {
     /// Path of a study, or the name of a ready one; without it, the ready ones are listed
-    #[arg(value_name = "STUDY", value_hint = ValueHint::FilePath)]
+    #[arg(value_name = "STUDY", value_hint = ValueHint::FilePath, add = completer(studies))]
     pub study: Option<String>,
     /// What to do with its table instead of making it.
     #[command(subcommand)]
@@ -366,6 +404,9 @@ pub struct StudyArguments {
     /// Neither progress nor summary; errors are still reported
     #[arg(short, long, global = true)]
     pub quiet: bool,
+    /// Print the summary, or the list of the ready studies, as JSON to stdout
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `gyration study STUDY …`
@@ -405,12 +446,41 @@ pub struct Calibrate {
     /// File of measurements
     #[arg(value_name = "DATA", value_hint = ValueHint::FilePath)]
     pub data: PathBuf,
-    /// File of the drawing of the fit: .svg, .png or .pdf [default: STEM-fit.svg in the current folder]
+    /// File of the drawing of the fit: .svg, .png, .pdf or .gif [default: STEM-fit.svg in the current folder]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
     /// Print the result as JSON
     #[arg(long)]
     pub json: bool,
+}
+
+fn completer(candidates: fn(&OsStr) -> Vec<CompletionCandidate>) -> ArgValueCompleter {
+    ArgValueCompleter::new(candidates)
+}
+
+/// Names of the gallery that begin so.
+fn names_of_scenes(begun: &OsStr) -> Vec<CompletionCandidate> {
+    named(gyration_scene::gallery().iter().map(|(name, _)| *name), begun)
+}
+
+/// Names of the gallery and paths that begin so.
+fn scenes(begun: &OsStr) -> Vec<CompletionCandidate> {
+    let mut all = names_of_scenes(begun);
+    all.extend(PathCompleter::any().complete(begun));
+    all
+}
+
+/// Names of ready studies and paths that begin so.
+#[cfg(feature = "study")]
+fn studies(begun: &OsStr) -> Vec<CompletionCandidate> {
+    let mut all = named(gyration_study::studies().iter().map(|(name, _)| *name), begun);
+    all.extend(PathCompleter::any().complete(begun));
+    all
+}
+
+fn named<'a>(names: impl Iterator<Item = &'a str>, begun: &OsStr) -> Vec<CompletionCandidate> {
+    let begun = begun.to_string_lossy();
+    names.filter(|name| name.starts_with(&*begun)).map(CompletionCandidate::new).collect()
 }
 
 /// Reads the name of a quantity; help lists all of them.

@@ -28,6 +28,10 @@ pub use provenance::provenance;
 
 /// The program, from its arguments (the first is its name) to its exit code.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    if commands::answer(&arguments) {
+        return error::code::DONE;
+    }
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(refusal) => return refuse(&refusal),

@@ -41,13 +41,55 @@ fn a_new_scene_runs_as_it_is_and_names_the_schema_beside_it() {
 fn schema_is_json() {
     let schema: Value = serde_json::from_str(&Sandbox::new().done(&["schema"]).stdout).unwrap();
     assert!(schema["properties"]["body"].is_object());
+    for (files, key) in [("study", "parameter"), ("calibration", "fit")] {
+        let schema: Value = serde_json::from_str(&Sandbox::new().done(&["schema", files]).stdout).unwrap();
+        assert!(schema["properties"][key].is_object(), "{files}");
+    }
 }
 
 #[test]
-fn completions_name_the_commands() {
+fn shells_are_told_commands_options_and_names() {
+    let sandbox = Sandbox::with_ball();
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let script = Sandbox::new().done(&["completions", shell]).stdout;
-        assert!(script.contains("resume") && script.contains("export"), "{shell}");
+        let script = sandbox.done(&["completions", shell]).stdout;
+        assert!(script.contains("GYRATION_COMPLETE"), "{shell}: {script}");
+    }
+    // As a shell asks that stands behind the last of these words.
+    let told = |words: &[&str]| {
+        let mut command = sandbox.command(&[&["--", "gyration"][..], words].concat());
+        command.env("GYRATION_COMPLETE", "bash").env("_CLAP_COMPLETE_INDEX", words.len().to_string());
+        String::from_utf8(command.output().unwrap().stdout).unwrap()
+    };
+    for (words, wanted) in [
+        (&["ex"][..], "export"),
+        (&["run", "dom"], "dominoes"),
+        (&["run", "bal"], "ball.toml"),
+        (&["run", "--res"], "--resume"),
+        (&["study", "dice-f"], "dice-fairness"),
+    ] {
+        assert!(told(words).lines().any(|word| word == wanted), "{words:?}: {}", told(words));
+    }
+}
+
+#[test]
+fn manual_pages_tell_every_command() {
+    let sandbox = Sandbox::new();
+    let main = sandbox.done(&["man"]).stdout;
+    assert!(main.contains(".TH gyration") && main.contains("calibrate"), "{main}");
+    std::fs::create_dir(sandbox.path("man")).unwrap();
+    sandbox.done(&["man", "man"]);
+    let run = std::fs::read_to_string(sandbox.path("man/gyration-run.1")).unwrap();
+    assert!(run.contains("\\-\\-resume"), "{run}");
+    assert!(sandbox.path("man/gyration.1").exists());
+}
+
+#[test]
+fn lists_are_told_as_json_too() {
+    let sandbox = Sandbox::new();
+    for arguments in [["scenes", "--json"], ["study", "--json"]] {
+        let list: Value = serde_json::from_str(&sandbox.done(&arguments).stdout).unwrap();
+        let first = &list.as_array().unwrap()[0];
+        assert!(first["name"].is_string() && first["title"].as_str().is_some_and(|title| !title.is_empty()), "{first}");
     }
 }
 

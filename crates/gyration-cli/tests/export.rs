@@ -215,6 +215,33 @@ fn laws_of_a_recording_with_a_mesh_need_the_same_mesh() {
 }
 
 #[test]
+fn films_and_pictures_are_written() {
+    let sandbox = Sandbox::with_ball();
+    sandbox.done(&["run", "ball.toml", "--quiet"]);
+    let said = sandbox.done(&["export", "ball.gyr", "-o", "ball.gif"]).stderr;
+    assert!(said.contains("pixels"), "{said}");
+    let film = fs::read(sandbox.path("ball.gif")).unwrap();
+    assert!(film.starts_with(b"GIF89a") && film.ends_with(&[0x3b]));
+    // Of each picture its control block, with the delay.
+    let delays: Vec<u16> = film
+        .windows(8)
+        .filter(|block| block.starts_with(&[0x21, 0xf9, 4]))
+        .map(|block| u16::from_le_bytes([block[4], block[5]]))
+        .collect();
+    let lasts = f64::from(delays.iter().sum::<u16>()) / 100.0;
+    assert!(delays.len() > 10 && said.contains(&format!("{lasts:.1} s")), "{delays:?}: {said}");
+    let said = sandbox.done(&["export", "ball.gyr", "--format", "png", "--at", "0.101"]).stderr;
+    assert!(
+        said.contains("t = 0.1 s") && fs::read(sandbox.path("ball.png")).unwrap().starts_with(b"\x89PNG"),
+        "{said}"
+    );
+    assert!(sandbox.refused(2, &["export", "ball.gyr", "--format", "gif", "--at", "0.1"]).stderr.contains("png only"));
+    let without = sandbox.command(&["export", "ball.gyr", "-o", "ball.mp4"]).env("PATH", "").output().unwrap();
+    let said = String::from_utf8_lossy(&without.stderr);
+    assert!(without.status.code() == Some(2) && said.contains("ffmpeg") && said.contains("--format gif"), "{said}");
+}
+
+#[test]
 fn closed_pipes_are_quiet() {
     let sandbox = Sandbox::with_ball();
     // More rows than a pipe holds.

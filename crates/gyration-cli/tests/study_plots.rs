@@ -33,6 +33,20 @@ fn studied() -> Sandbox {
 }
 
 #[test]
+fn a_table_is_drawn_by_plot_as_well_and_told_as_json() {
+    let sandbox = studied();
+    sandbox.done(&["plot", "balls.study"]);
+    let drawn = std::fs::read(sandbox.path("balls.svg")).unwrap();
+    sandbox.done(&["study", "balls.study", "plot", "-o", "again.svg"]);
+    assert_eq!(drawn, std::fs::read(sandbox.path("again.svg")).unwrap());
+    assert!(sandbox.refused(2, &["plot", "balls.study", "height"]).stderr.contains("--colour"));
+    let told = sandbox.done(&["study", "balls.toml", "--resume", "--json"]).stdout;
+    let told: serde_json::Value = serde_json::from_str(&told).unwrap();
+    assert_eq!((told["runs"].as_u64(), told["points"].as_u64()), (Some(6), Some(2)));
+    assert_eq!(told["columns"]["top"]["count"].as_u64(), Some(6));
+}
+
+#[test]
 fn study_draws_what_it_says_and_what_is_asked_for() {
     let sandbox = studied();
     let pictures: [(&[&str], &str, &str); 6] = [
@@ -84,7 +98,7 @@ fn what_cannot_be_drawn_is_refused_with_the_fix() {
     let refused: [(&[&str], &str); 4] = [
         (&["--y", "tops"], "its columns are run, point"),
         (&["--kind", "map"], "the study has no such axis"),
-        (&["-o", "balls.gif"], ".svg, .png or .pdf"),
+        (&["-o", "balls.bmp"], ".svg, .png, .pdf or .gif"),
         (&["--x", "apexes", "--kind", "curve"], "is a list"),
     ];
     for (more, words) in refused {

@@ -4,7 +4,7 @@
 
 use crate::chart::frame::{self, BELOW, Content, NAME_SIZE, words_at};
 use crate::chart::{Chart, LEGEND_SIZE, Legend, ShapeChart, Shapes};
-use crate::draw::{Anchor, Format, Label, Page, Rect, Text, color, font};
+use crate::draw::{Anchor, Film, Format, Label, Page, Rect, Text, color, font};
 use crate::strip::{Motion, Strip};
 
 /// Width of a page [pt]: fits between the margins of A4 and letter paper.
@@ -70,6 +70,11 @@ impl Figure {
     /// The bytes of its picture.
     pub fn render(&self, format: Format) -> Vec<u8> {
         self.draw().render(format)
+    }
+
+    /// What moves on it, as pictures that follow one another; of what does not move, one picture.
+    pub fn film(&self) -> Film {
+        Film::of(&self.draw())
     }
 
     /// Lays the figure out and draws it.

@@ -33,7 +33,7 @@ pub mod study;
 mod thin;
 
 pub use bands::bands;
-pub use draw::Format;
+pub use draw::{Film, FilmFrame, Format};
 pub use error::PlotError;
 pub use figure::Figure;
-pub use show::{OVERVIEW, PlotQuantity, laws, leave_overview, of_recording};
+pub use show::{OVERVIEW, PlotQuantity, bodies_at, laws, leave_overview, of_recording};

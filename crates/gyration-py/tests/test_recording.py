@@ -68,7 +68,7 @@ def test_pictures_are_those_of_the_program(recording, tmp_path):
         saved = tmp_path / f"picture.{ending}"
         picture.save(saved)
         assert saved.read_bytes().lstrip()[:40].find(head) >= 0
-    with pytest.raises(gyration.ArgumentError, match=".svg, .png or .pdf"):
+    with pytest.raises(gyration.ArgumentError, match=".svg, .png, .pdf or .gif"):
         picture.save(tmp_path / "picture.gif")
     with pytest.raises(gyration.ArgumentError, match="overview"):
         recording.plot("heigth")

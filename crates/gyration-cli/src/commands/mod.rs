@@ -7,6 +7,7 @@ mod check;
 mod completions;
 mod export;
 mod import;
+mod man;
 mod modes;
 mod new;
 mod plot;
@@ -20,6 +21,8 @@ mod schema;
 mod study;
 #[cfg(feature = "view")]
 mod view;
+
+pub use completions::answer;
 
 use crate::arguments::Command;
 use crate::error::CliError;
@@ -48,7 +51,8 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::Study(arguments) => study::execute(&arguments),
         #[cfg(feature = "study")]
         Command::Calibrate(arguments) => calibrate::execute(&arguments),
-        Command::Schema => schema::execute(),
+        Command::Schema { of } => schema::execute(of),
         Command::Completions { shell } => completions::execute(shell),
+        Command::Man { folder } => man::execute(folder.as_deref()),
     }
 }

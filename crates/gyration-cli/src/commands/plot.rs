@@ -19,6 +19,10 @@ pub fn execute(arguments: &Plot) -> Result<u8, CliError> {
             "ask for it: `gyration plot DIR stroke --measures A,B`",
         ));
     }
+    #[cfg(feature = "study")]
+    if is_table(Path::new(&arguments.source)) {
+        return of_table(arguments);
+    }
     let is_recording = Path::new(&arguments.source).is_dir();
     let (figure, name) = if is_recording { of_recording(arguments)? } else { of_scene(arguments)? };
     write(&figure, output, format, || PathBuf::from(format!("{name}.svg")))
@@ -48,6 +52,25 @@ pub fn write(
     write_file(&path, &bytes)?;
     output::say(&format!("wrote {}", path.display()));
     Ok(code::DONE)
+}
+
+/// Whether a path is that of the table of a study.
+#[cfg(feature = "study")]
+fn is_table(path: &Path) -> bool {
+    let ending = |ending: &str| path.extension().is_some_and(|own| own == ending);
+    (path.is_dir() && ending("study")) || (path.is_file() && ending("parquet"))
+}
+
+/// The picture that `gyration study … plot` draws without options.
+#[cfg(feature = "study")]
+fn of_table(arguments: &Plot) -> Result<u8, CliError> {
+    if !arguments.what.is_empty() || !arguments.measures.is_empty() || !arguments.overrides.is_empty() {
+        return Err(CliError::arguments(
+            format!("{} is the table of a study, which has columns", arguments.source),
+            format!("`gyration study {} plot` with --x, --y, --colour, --kind", arguments.source),
+        ));
+    }
+    super::study::draw_table(&arguments.source, arguments.output.as_deref())
 }
 
 /// The figure, and what its file is called.

@@ -4,14 +4,22 @@ use crate::arguments::Scenes;
 use crate::error::{CliError, code};
 use crate::output;
 use gyration_scene::{gallery, gallery_scene, gallery_title};
+use serde_json::{Value, json};
 
 /// Lists the gallery, or prints one scene as it stands.
 pub fn execute(arguments: &Scenes) -> Result<u8, CliError> {
     match &arguments.name {
+        None if arguments.json => output::print(&format!("{:#}\n", in_json()))?,
         None => output::print(&list())?,
         Some(name) => output::print(gallery_scene(name)?)?,
     }
     Ok(code::DONE)
+}
+
+/// Name and title of each scene.
+fn in_json() -> Value {
+    let scene = |(name, text): &(&str, &str)| json!({ "name": name, "title": gallery_title(text).unwrap_or_default() });
+    gallery().iter().map(scene).collect()
 }
 
 /// Name and title of each scene, a line each.

@@ -4,6 +4,7 @@
 //! nothing of charts, recordings or scenes. Its bytes depend on the marks alone: no dates, no names of machines.
 
 pub mod color;
+mod film;
 pub mod font;
 mod format;
 mod geometry;
@@ -14,6 +15,7 @@ mod png;
 mod svg;
 
 pub use color::Color;
+pub use film::{Film, FilmFrame};
 pub use format::Format;
 pub use geometry::{Point, Rect};
 pub use label::Label;

@@ -16,17 +16,27 @@ pub fn render(drawing: &Page) -> Vec<u8> {
     let longest = drawing.width.max(drawing.height) as f32;
     let scale = SCALE.min(MOST_PIXELS / longest);
     let side = |length: f64| ((length as f32 * scale).ceil() as u32).max(1);
-    let (width, height) = (side(drawing.width), side(drawing.height));
-    let Some(pixmap) = Pixmap::new(width, height) else { return Vec::new() };
+    let size = [side(drawing.width), side(drawing.height)];
+    let pixels = pixels(size, scale, drawing.still());
+    pixels.and_then(|pixels| pixels.encode_png().ok()).unwrap_or_default()
+}
+
+/// Marks on white, so many pixels a point.
+pub(super) fn pixels<'a>(
+    [width, height]: [u32; 2],
+    scale: f32,
+    marks: impl Iterator<Item = &'a Mark>,
+) -> Option<Pixmap> {
+    let pixmap = Pixmap::new(width, height)?;
     let mut canvas = Canvas { pixmap, transform: Transform::from_scale(scale, scale), mask: None };
     canvas.pixmap.fill(tiny_skia::Color::WHITE);
-    for mark in drawing.still() {
+    for mark in marks {
         match mark {
             Mark::Path(path) => canvas.path(path),
             Mark::Text(text) => canvas.text(text),
         }
     }
-    canvas.pixmap.encode_png().unwrap_or_default()
+    Some(canvas.pixmap)
 }
 
 struct Canvas {

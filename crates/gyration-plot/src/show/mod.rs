@@ -49,6 +49,17 @@ pub fn of_recording(
     Ok(figure(&recorded, all))
 }
 
+/// The bodies at the sample nearest to a time \[s\], or at the end; and the time of it.
+///
+/// # Errors
+/// [`PlotError`] where the recording cannot be read or has no samples.
+pub fn bodies_at(recording: &Recording, time: Option<f64>) -> Result<(Figure, f64), PlotError> {
+    let recorded = RecordedScene::new(recording)?;
+    let strip = Strip::at(&recorded, time)?;
+    let time = strip.frames.first().map_or(f64::NAN, |shown| shown.time);
+    Ok((figure(&recorded, vec![Panel::Strip(strip)]), time))
+}
+
 /// The contact laws of a scene, at its start.
 ///
 /// # Errors

@@ -128,6 +128,21 @@ impl Strip {
         Ok(watched.strip(strobe.unwrap_or_else(|| watched.frames(FRAMES)), shared))
     }
 
+    /// The sample of a recording nearest to a time \[s\], or the last.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn at(recorded: &RecordedScene, time: Option<f64>) -> Result<Self, PlotError> {
+        let watched = Watched::of(recorded)?;
+        let last = recorded.recording.rows().saturating_sub(1);
+        let row = match time {
+            None => last,
+            Some(time) => nearest(last, time, |row| Ok(recorded.poses(row)?.0))?,
+        };
+        let (time, poses) = recorded.poses(row)?;
+        Ok(watched.strip(vec![frame(recorded, &Probe { time, poses }, &watched.view)], true))
+    }
+
     /// So many times of a recording, evenly, each a picture of its own, and whether a support moves.
     ///
     /// # Errors
@@ -136,6 +151,17 @@ impl Strip {
         let watched = Watched::of(recorded)?;
         Ok((watched.strip(watched.frames(count), false), supports_move(recorded, &watched.probes)))
     }
+}
+
+/// The row whose time is nearest; of times that grow.
+fn nearest(last: usize, time: f64, time_of: impl Fn(usize) -> Result<f64, PlotError>) -> Result<usize, PlotError> {
+    let (mut low, mut high) = (0, last);
+    while high - low > 1 {
+        let middle = usize::midpoint(low, high);
+        if time_of(middle)? <= time { low = middle } else { high = middle }
+    }
+    let is_first = (time - time_of(low)?).abs() <= (time_of(high)? - time).abs();
+    Ok(if is_first { low } else { high })
 }
 
 /// So many indices below `length`, evenly, with the first and the last.
@@ -247,5 +273,11 @@ mod tests {
         assert_eq!(evenly(3, 11).collect::<Vec<_>>(), [0, 5, 10]);
         assert_eq!(evenly(10, 3).collect::<Vec<_>>(), [0, 1, 2]);
         assert_eq!(evenly(5, 1).collect::<Vec<_>>(), [0]);
+    }
+
+    #[test]
+    fn the_sample_nearest_to_a_time_is_found() {
+        let row = |time: f64| nearest(10, time, |row| Ok(0.1 * row as f64)).unwrap_or(usize::MAX);
+        assert_eq!([row(-1.0), row(0.04), row(0.06), row(0.34), row(0.36), row(2.0)], [0, 0, 1, 3, 4, 10]);
     }
 }

@@ -29,6 +29,11 @@ pub use uncertainty::{Fitted, FittedNumber, Residual, Undetermined};
 use gyration_scene::{LoadError, Override, Template};
 use scale::Scale;
 
+/// The JSON Schema of a file of measurements.
+pub fn schema() -> serde_json::Value {
+    gyration_scene::schema_of::<file::CalibrationFile>()
+}
+
 /// Measurements, and the scene whose numbers they tell.
 #[derive(Debug, Clone)]
 pub struct Calibration {

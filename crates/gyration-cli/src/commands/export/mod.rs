@@ -1,5 +1,6 @@
-//! `gyration export`: a recording as a table, as arrays, as surfaces for ParaView, as an animation.
+//! `gyration export`: a recording as a table, as arrays, as surfaces for ParaView, as an animation, as a film.
 
+mod film;
 mod surfaces;
 
 use crate::arguments::{Export, ExportFormat};
@@ -15,14 +16,20 @@ use std::path::{Path, PathBuf};
 
 /// Writes the export.
 pub fn execute(arguments: &Export) -> Result<u8, CliError> {
-    let Export { recording: source, every, pairs, output, .. } = arguments;
+    let Export { recording: source, every, pairs, at, output, .. } = arguments;
     let format = arguments.format.map_or_else(|| by_ending(output.as_deref()), Ok)?;
     if every.is_some() && format != ExportFormat::Vtk {
-        return Err(CliError::arguments("--every is for vtk only", "leave it out; gltf is thinned to what is seen"));
+        return Err(CliError::arguments(
+            "--every is for vtk only",
+            "leave it out; films and gltf are thinned to what is seen",
+        ));
     }
     if *pairs && format != ExportFormat::Csv {
         let fix = "leave it out: npz has the pairs of a recording by itself, as pairs/first, pairs/force, …";
         return Err(CliError::arguments("--pairs is for csv only", fix));
+    }
+    if at.is_some() && format != ExportFormat::Png {
+        return Err(CliError::arguments("--at is for png only", "leave it out: the other formats have all times"));
     }
     let recording = Recording::open(source)?;
     if *pairs && recording.ragged().is_none() {
@@ -52,6 +59,9 @@ pub fn execute(arguments: &Export) -> Result<u8, CliError> {
             })?;
             format!("{keys} of {} samples", recording.rows())
         }
+        ExportFormat::Gif => film::gif(&recording, &path)?,
+        ExportFormat::Mp4 => film::mp4(&recording, &path)?,
+        ExportFormat::Png => film::png(&recording, *at, &path)?,
         ExportFormat::Vtk => surfaces::write(&recording, &path, every.map_or(1, usize::from))?,
     };
     output::say(&format!("wrote {} ({what})", path.display()));
@@ -68,7 +78,10 @@ fn by_ending(output: Option<&Path>) -> Result<ExportFormat, CliError> {
             Some(path) => format!("the name {} does not tell a format", path.display()),
             None => "no format is given".to_owned(),
         };
-        CliError::arguments(problem, "give --format csv, npz, vtk or gltf, or -o with .csv, .npz, .pvd or .glb")
+        CliError::arguments(
+            problem,
+            "give --format csv, npz, vtk, gltf, gif, mp4 or png, or -o with .csv, .npz, .pvd, .glb, .gif, .mp4 or .png",
+        )
     })
 }
 
@@ -78,6 +91,9 @@ fn ending(format: ExportFormat) -> &'static str {
         ExportFormat::Npz => "npz",
         ExportFormat::Vtk => "pvd",
         ExportFormat::Gltf => "glb",
+        ExportFormat::Gif => "gif",
+        ExportFormat::Mp4 => "mp4",
+        ExportFormat::Png => "png",
     }
 }
 

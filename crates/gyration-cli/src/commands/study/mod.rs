@@ -4,6 +4,8 @@ mod bar;
 mod plot;
 mod summary;
 
+pub use plot::draw_table;
+
 use crate::arguments::{StudyAction, StudyArguments};
 use crate::error::{CliError, code};
 use crate::input::{quoted, shown};
@@ -12,13 +14,14 @@ use bar::StudyBar;
 use gyration_plot::study::PlotRequest;
 use gyration_study::{Digest, Shard, Study, Table, execute as make, merge, studies};
 use gyration_threads::Threads;
+use serde_json::{Value, json};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Does what was asked; the exit code tells whether the table is complete.
 pub fn execute(arguments: &StudyArguments) -> Result<u8, CliError> {
-    let Some(name) = &arguments.study else { return list() };
+    let Some(name) = &arguments.study else { return list(arguments.json) };
     // A table is drawn wherever it comes from: its study need not be there.
     if let Some(StudyAction::Plot(wanted)) = &arguments.action {
         return plot::execute(name, wanted, arguments);
@@ -32,13 +35,17 @@ pub fn execute(arguments: &StudyArguments) -> Result<u8, CliError> {
 }
 
 /// The ready studies, with what they ask.
-fn list() -> Result<u8, CliError> {
-    let mut list = String::new();
-    for (name, text) in studies() {
-        let title = Study::parse(&format!("{name}.toml"), text, Path::new(""), &[]);
-        let title = title.ok().and_then(|study| study.title().map(str::to_owned)).unwrap_or_default();
-        list += &format!("{name:<18} {title}\n");
+fn list(in_json: bool) -> Result<u8, CliError> {
+    let titled = studies().iter().map(|(name, text)| {
+        let study = Study::parse(&format!("{name}.toml"), text, Path::new(""), &[]);
+        (name, study.ok().and_then(|study| study.title().map(str::to_owned)).unwrap_or_default())
+    });
+    if in_json {
+        let list: Value = titled.map(|(name, title)| json!({ "name": name, "title": title })).collect();
+        output::print(&format!("{list:#}\n"))?;
+        return Ok(code::DONE);
     }
+    let list: String = titled.map(|(name, title)| format!("{name:<18} {title}\n")).collect();
     output::print(&(list + "\n`gyration study NAME` makes one; `gyration study NAME plot` draws its table.\n"))?;
     Ok(code::DONE)
 }
@@ -56,9 +63,13 @@ fn run(arguments: &StudyArguments, study: &Study, path: &Path) -> Result<u8, Cli
         if !arguments.quiet {
             output::say(&format!("{} is complete. Nothing was done.", shown(table.folder())));
         }
-        return Ok(summary::verdict(&Digest::read(&table.file())?));
+        let digest = Digest::read(&table.file())?;
+        if arguments.json {
+            print_json(study, &digest, &table.file())?;
+        }
+        return Ok(summary::verdict(&digest));
     }
-    let mut watch = StudyBar::new(!arguments.quiet)?;
+    let mut watch = StudyBar::new(!arguments.quiet && !arguments.json)?;
     let (began, before) = (Instant::now(), table.rows());
     let made = make(study, &mut table, threads, &mut watch);
     watch.finish();
@@ -66,7 +77,9 @@ fn run(arguments: &StudyArguments, study: &Study, path: &Path) -> Result<u8, Cli
     let made = table.rows() - before;
     if is_complete {
         let digest = Digest::read(&table.file())?;
-        if !arguments.quiet {
+        if arguments.json {
+            print_json(study, &digest, &table.file())?;
+        } else if !arguments.quiet {
             let effort =
                 summary::StudyCost { runs: made, seconds: began.elapsed().as_secs_f64(), threads: threads.get() };
             output::say(&summary::in_words(study, &digest, &effort));
@@ -95,12 +108,20 @@ fn join(arguments: &StudyArguments, study: &Study, path: &Path) -> Result<u8, Cl
     let began = Instant::now();
     let file = merge(path, study, arguments.force)?;
     let digest = Digest::read(&file)?;
-    if !arguments.quiet {
+    if arguments.json {
+        print_json(study, &digest, &file)?;
+    } else if !arguments.quiet {
         let effort = summary::StudyCost { runs: 0, seconds: began.elapsed().as_secs_f64(), threads: 1 };
         output::say(&summary::in_words(study, &digest, &effort));
         output::say(&format!("table      {}", shown(&file)));
     }
     Ok(summary::verdict(&digest))
+}
+
+fn print_json(study: &Study, digest: &Digest, table: &Path) -> Result<(), CliError> {
+    let mut value = summary::in_json(study, digest);
+    value["table"] = json!(shown(table));
+    Ok(output::print(&format!("{value:#}\n"))?)
 }
 
 /// The command by which an interrupted study goes on.

@@ -25,6 +25,14 @@ pub fn execute(study: &str, arguments: &StudyPlot, beside: &StudyArguments) -> R
     write(&figure, output, format, || PathBuf::from(format!("{stem}.svg")))
 }
 
+/// Draws a table as its study says, or by its columns.
+pub fn draw_table(table: &str, output: Option<&Path>) -> Result<u8, CliError> {
+    let (path, format) = (Path::new(table), format(output)?);
+    let stem = stem(path);
+    let figure = of_table(&DataFrame::read(path)?, &stem, PlotRequest::default(), None)?;
+    write(&figure, output, format, || PathBuf::from(format!("{stem}.svg")))
+}
+
 /// The study, whose file may say more of its picture now than when the table was made; none where only the table is
 /// there.
 fn opened(study: &str, overrides: &[String]) -> Result<Option<Study>, CliError> {

@@ -4,6 +4,7 @@ use crate::error::code;
 use crate::output;
 use gyration_sim::format::{duration, significant};
 use gyration_study::{Column, ColumnKind, Digest, FAILED, Spread, Study};
+use serde_json::{Map, Value, json};
 
 /// The most different texts that are listed.
 const MOST_LISTED: usize = 12;
@@ -41,6 +42,36 @@ pub fn in_words(study: &Study, digest: &Digest, effort: &StudyCost) -> String {
         lines.push(format!("time       {}", throughput(effort)));
     }
     lines.join("\n")
+}
+
+/// The same for programs: how many runs, and of each column counts of texts, or mean, deviation and range of numbers.
+pub fn in_json(study: &Study, digest: &Digest) -> Value {
+    let told = |name: &str| {
+        let (column, spread) = digest.column(name)?;
+        let number = |value: f64| if value.is_finite() { json!(value) } else { Value::Null };
+        let spread = match column.kind {
+            ColumnKind::Text => json!(spread.texts),
+            _ => json!({
+                "count": spread.count,
+                "mean": number(spread.mean),
+                "deviation": number(spread.deviation()),
+                "least": number(spread.least),
+                "greatest": number(spread.greatest),
+            }),
+        };
+        Some((name.to_owned(), spread))
+    };
+    let kept: Map<String, Value> = study.keeps().iter().filter_map(|(name, _)| told(name)).collect();
+    let outcomes = digest.column("outcome").map(|(_, spread)| &spread.texts);
+    json!({
+        "title": study.title(),
+        "runs": digest.rows,
+        "points": study.points(),
+        "repetitions": study.repetitions(),
+        "outcomes": outcomes,
+        "open_ledgers": digest.open.count,
+        "columns": kept,
+    })
 }
 
 fn repetitions(count: u64) -> String {
