@@ -5,7 +5,7 @@
 //! the problems with a known answer and writes `docs/known-answers.md` from what they print. `gallery` runs the scenes,
 //! draws their pictures and writes `docs/gallery.md`. `golden` writes the sums of their recordings. `compare` tells
 //! whether two commits give the same recordings, `fill` fills comments and pages, `campaign` tries random scenes, `web`
-//! builds the site, `supply` lists the dependencies.
+//! builds the site, `docs` the book in HTML, `supply` lists the dependencies.
 //!
 //! This program knows no mechanics; it starts other programs and reads their output.
 
@@ -16,6 +16,7 @@ mod child;
 mod compare;
 mod console;
 mod debian;
+mod docs;
 mod fill;
 mod gallery;
 mod golden;
@@ -50,6 +51,7 @@ usage: cargo xtask CHORE
   fill [FILE…]   fill comments and pages to the width of a line
   campaign [--scenes N] [--seed S] [--only K] [--program FILE] [--wall-time SECONDS]  random scenes, killed, resumed, audited
   web            build the page that runs scenes by itself, target/site, and test it
+  docs           build the book in HTML, target/book; links that lead nowhere are errors
   supply         list the packages that are locked, once what is new has been looked up
   compare OLD NEW [SCENE…]  whether two commits record the same bytes; also a program, or a folder of recordings";
 
@@ -63,6 +65,7 @@ fn main() -> ExitCode {
         ["gallery", names @ ..] => gallery::run(names),
         ["golden"] => golden::run(),
         ["web"] => web::run(),
+        ["docs"] => docs::run(),
         ["fill", names @ ..] => fill::run(names),
         ["supply"] => supply::run(),
         ["campaign", words @ ..] => campaign::run(words),

@@ -1,6 +1,7 @@
-//! The virtual environment in which the Python tests run: `target/python`, packages pinned.
+//! Virtual environments with pinned packages: `target/python`, in which the Python tests run, `target/book-python`,
+//! with which the site of the documentation is built.
 //!
-//! It is made once and again whenever the list of packages changes. Debian keeps `venv` in a package of its own, which
+//! One is made once and again whenever the list of packages changes. Debian keeps `venv` in a package of its own, which
 //! is installed where that is possible without asking (as root), and named otherwise.
 
 use crate::debian::{can_install, install};
@@ -10,12 +11,17 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The interpreter of the environment, made if it is not there; none, with a complaint noted, if it cannot be.
-pub fn environment(steps: &mut Steps) -> Option<PathBuf> {
-    let folder = target_directory().join("python");
+/// The interpreter of the environment of the Python tests.
+pub fn test_environment(steps: &mut Steps) -> Option<PathBuf> {
+    environment(steps, "python", &root().join("xtask/python-requirements.txt"))
+}
+
+/// The interpreter of the environment of this name with these packages, made if it is not there; none, with a complaint
+/// noted, if it cannot be.
+pub fn environment(steps: &mut Steps, name: &str, pinned: &Path) -> Option<PathBuf> {
+    let folder = target_directory().join(name);
     let interpreter = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let pinned = root().join("xtask/python-requirements.txt");
-    if is_current(&folder, &pinned) && succeeds(Command::new(&interpreter).arg("--version")) {
+    if is_current(&folder, pinned) && succeeds(Command::new(&interpreter).arg("--version")) {
         return Some(interpreter);
     }
     if !has_venv() && !install_venv(steps) {
@@ -26,13 +32,13 @@ pub fn environment(steps: &mut Steps) -> Option<PathBuf> {
             "install Python packages",
             Command::new(&interpreter)
                 .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--requirement"])
-                .arg(&pinned),
+                .arg(pinned),
         );
     if !made {
         return None;
     }
     // Written last: an installation that was cut short is made anew.
-    if let Err(error) = fs::copy(&pinned, stamp(&folder)) {
+    if let Err(error) = fs::copy(pinned, stamp(&folder)) {
         steps.complain(format!("{}: {error}", stamp(&folder).display()));
         return None;
     }

@@ -78,7 +78,7 @@ fn rust(steps: &mut Steps, extent: Extent, built: &Sender<TestPrograms>) {
 /// built.
 fn beside_rust(steps: &mut Steps, built: &Receiver<TestPrograms>) {
     let browser = viewer::browser(steps);
-    let interpreter = python::environment(steps);
+    let interpreter = python::test_environment(steps);
     let emulator = golden::emulator(steps);
     let Ok(built) = built.recv() else { return };
     if let Some(interpreter) = interpreter {
