@@ -5,7 +5,7 @@
 //! the problems with a known answer and writes `docs/known-answers.md` from what they print. `gallery` runs the scenes,
 //! draws their pictures and writes `docs/gallery.md`. `golden` writes the sums of their recordings. `compare` tells
 //! whether two commits give the same recordings, `fill` fills comments and pages, `campaign` tries random scenes, `web`
-//! builds the site, `docs` the book in HTML, `supply` lists the dependencies.
+//! builds the site, `docs` the book in HTML, `wheel` wheels for others, `supply` lists the dependencies.
 //!
 //! This program knows no mechanics; it starts other programs and reads their output.
 
@@ -36,6 +36,7 @@ mod test;
 mod validate;
 mod viewer;
 mod web;
+mod wheel;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -52,6 +53,7 @@ usage: cargo xtask CHORE
   campaign [--scenes N] [--seed S] [--only K] [--program FILE] [--wall-time SECONDS]  random scenes, killed, resumed, audited
   web            build the page that runs scenes by itself, target/site, and test it
   docs           build the book in HTML, target/book; links that lead nowhere are errors
+  wheel [--target TRIPLE | --sources]  build a wheel for others, or their sources, in target/wheels, and try it
   supply         list the packages that are locked, once what is new has been looked up
   compare OLD NEW [SCENE…]  whether two commits record the same bytes; also a program, or a folder of recordings";
 
@@ -66,6 +68,9 @@ fn main() -> ExitCode {
         ["golden"] => golden::run(),
         ["web"] => web::run(),
         ["docs"] => docs::run(),
+        ["wheel"] => wheel::run(wheel::Build::Here),
+        ["wheel", "--sources"] => wheel::run(wheel::Build::Sources),
+        ["wheel", "--target", target] => wheel::run(wheel::Build::For(target)),
         ["fill", names @ ..] => fill::run(names),
         ["supply"] => supply::run(),
         ["campaign", words @ ..] => campaign::run(words),

@@ -53,7 +53,8 @@ fn is_current(folder: &Path, pinned: &Path) -> bool {
     matches!((fs::read(stamp(folder)), fs::read(pinned)), (Ok(there), Ok(wanted)) if there == wanted)
 }
 
-fn python() -> Command {
+/// The interpreter of the system.
+pub fn python() -> Command {
     Command::new(if cfg!(windows) { "python" } else { "python3" })
 }
 

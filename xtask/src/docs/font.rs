@@ -20,7 +20,8 @@ pub fn folder(steps: &mut Steps, settings: &Path) -> Option<PathBuf> {
         steps.complain("the font of formulas: Node 20 or later is not installed".into());
         return None;
     }
-    let is_current = |name: &str| matches!((fs::read(packages.join(name)), fs::read(settings.join(name))), (Ok(there), Ok(wanted)) if there == wanted);
+    let read = |folder: &Path, name: &str| fs::read(folder.join(name)).ok();
+    let is_current = |name: &str| read(&packages, name).is_some_and(|there| Some(there) == read(settings, name));
     let lists = ["package.json", "package-lock.json"];
     if lists.iter().all(|name| is_current(name)) && FILES.iter().all(|(_, name)| fonts.join(name).is_file()) {
         return Some(fonts);
