@@ -1,11 +1,15 @@
 //! Builds the page of `viewer/` with Node, if there is Node, and hands it to the crate to embed.
 //!
 //! A build without a page is a build all the same: the program then says how to get it. `GYRATION_PAGE=FILE` embeds a
-//! page built elsewhere, `GYRATION_PAGE=none` none at all. Packages are installed into `viewer/node_modules`, once.
+//! page built elsewhere, `GYRATION_PAGE=none` none at all. Packages are installed into `viewer/node_modules`, once. In
+//! a package from a registry there is no `viewer/`: the page stands beside this file.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
+
+/// The page of a package.
+const PACKAGED: &str = "page.html";
 
 /// What the page is built from, in `viewer/`.
 const SOURCES: [&str; 6] =
@@ -27,6 +31,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Ok(given) => {
             println!("cargo:rerun-if-changed={given}");
             fs::copy(given, &page).map(drop).map_err(|error| format!("GYRATION_PAGE={given}: {error}"))
+        }
+        Err(_) if !viewer.exists() => {
+            println!("cargo:rerun-if-changed={PACKAGED}");
+            fs::copy(PACKAGED, &page).map(drop).map_err(|error| format!("neither viewer/ nor {PACKAGED}: {error}"))
         }
         Err(_) => build(viewer, &out).and_then(|built| {
             fs::copy(&built, &page).map(drop).map_err(|error| format!("{}: {error}", built.display()))

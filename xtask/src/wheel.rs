@@ -1,4 +1,5 @@
-//! Wheels for others, in `target/wheels`: built for speed, for every Python from 3.10 on, and tried where nothing else is.
+//! Wheels for others, in `target/wheels`: built for speed, for every Python from 3.10 on, and tried where nothing else
+//! is.
 //!
 //! ```text
 //! maturin (on Linux with the linker of zig, manylinux2014) → audit → pip install → gyration run dice → a first picture
