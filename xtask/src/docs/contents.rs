@@ -12,7 +12,10 @@ pub const REFERENCE: &str = "docs/python-reference.rst";
 
 /// The parts of the book: a caption and its pages.
 const PARTS: [(&str, &[&str]); 7] = [
-    ("Begin", &["docs/README.md", "docs/gallery.md", "docs/viewing.md", "docs/recipes.md"]),
+    (
+        "Begin",
+        &["docs/README.md", "docs/gallery.md", "docs/viewing.md", "docs/recipes.md", "docs/check-any-simulator.md"],
+    ),
     ("Scenes", &["docs/scene-reference.md", "docs/robots.md", "docs/crowds.md", "docs/exit-codes.md"]),
     ("Results", &["docs/recording.md", "docs/recipes-recordings.md", "docs/exports.md", "docs/sensitivities.md"]),
     ("Many runs", &["docs/studies.md", "docs/ready-studies.md", "docs/clusters.md", "docs/calibrate.md"]),
