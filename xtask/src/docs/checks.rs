@@ -1,4 +1,4 @@
-//! Checks of the pages by themselves: where links lead.
+//! Checks of the pages by themselves: where links lead, and which chores they and the workflows name.
 
 use super::markdown::{anchors, links};
 use super::stage::path_of;
@@ -32,4 +32,29 @@ fn links_and_pictures_of_the_pages_lead_somewhere() {
     }
     assert!(count > 200, "{count} links were found");
     assert!(wrong.is_empty(), "these lead nowhere: {wrong:#?}");
+}
+
+/// Pages, and what runs chores by itself.
+fn instructions() -> Vec<(String, String)> {
+    let files = [".ci/run", ".github/workflows/release.yml", ".github/workflows/test.yml"];
+    let read = |name: &str| (name.to_owned(), fs::read_to_string(root().join(name)).unwrap());
+    pages().into_iter().chain(files.into_iter().map(read)).collect()
+}
+
+#[test]
+fn chores_that_are_named_exist() {
+    let (mut count, mut wrong) = (0, Vec::new());
+    for (file, text) in instructions() {
+        for (place, words) in text.match_indices("cargo xtask ") {
+            let rest = &text[place + words.len()..];
+            let chore = rest.split(|c: char| !c.is_ascii_lowercase()).next().unwrap_or_default();
+            count += 1;
+            // CHORE stands for any of them.
+            if !rest.starts_with("CHORE") && !crate::USAGE.contains(&format!("\n  {chore} ")) {
+                wrong.push(format!("{file}: {}", rest.lines().next().unwrap_or_default()));
+            }
+        }
+    }
+    assert!(count > 20, "{count} chores were found");
+    assert!(wrong.is_empty(), "there are no such chores: {wrong:#?}");
 }
