@@ -12,6 +12,8 @@
 #![forbid(unsafe_code)]
 
 mod arguments;
+#[cfg(test)]
+mod book;
 mod commands;
 mod error;
 mod input;
