@@ -57,6 +57,8 @@ fn words(command: &str) -> Vec<String> {
     let end = words.iter().position(|word| matches!(word.as_str(), "|" | ">" | "&&")).unwrap_or(words.len());
     words.truncate(end);
     words.retain(|word| word != "…");
+    // A variable at the end of a line may be empty.
+    words.pop_if(|word| word.starts_with('$'));
     let first = |word: &String| match word.split_once('|') {
         Some((first, _)) if !first.contains('=') => first.to_owned(),
         // A variable of a shell may be a number.
