@@ -121,7 +121,7 @@ fn join(arguments: &StudyArguments, study: &Study, path: &Path) -> Result<u8, Cl
 fn print_json(study: &Study, digest: &Digest, table: &Path) -> Result<(), CliError> {
     let mut value = summary::in_json(study, digest);
     value["table"] = json!(shown(table));
-    Ok(output::print(&format!("{value:#}\n"))?)
+    output::print(&format!("{value:#}\n"))
 }
 
 /// The command by which an interrupted study goes on.
