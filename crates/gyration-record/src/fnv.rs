@@ -11,6 +11,11 @@ pub(crate) fn fnv_1a(hash: u64, bytes: &[u8]) -> u64 {
     bytes.iter().fold(hash, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(PRIME))
 }
 
+/// The word of these bytes.
+pub fn word_of(bytes: &[u8]) -> u64 {
+    fnv_1a(FNV_START, bytes)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

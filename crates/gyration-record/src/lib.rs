@@ -44,6 +44,7 @@ pub use disk::remove;
 pub use error::RecordError;
 pub use event::Event;
 pub use file::{cannot_write, replace_file, write_file};
+pub use fnv::word_of;
 pub use layout::{ArraySpec, Dimension, FixedArray, Layout, Ragged, RaggedArray, chunk_rows_for};
 pub use recording::{Array, Recording};
 pub use row_hash::RowHash;

@@ -47,6 +47,6 @@ pub use record::pairs::entries;
 pub use record::{Job, MemorySink, Provenance, RecordingEnd, Unwatched, differences, pairs_csv};
 pub use resistance::{complete, completed, open, open_at_rest};
 pub use run::Simulation;
-pub use stepping::{Refusal, SteppedRun};
+pub use stepping::{BodyStart, Refusal, SteppedRun};
 pub use summary::{Balance, BodySummary, LedgerSummary, OpenLedgers, RunSummary, Verdict};
 pub use survey::remarks::Remarks;

@@ -128,6 +128,11 @@ pub enum RunError {
 }
 
 impl RunError {
+    /// A checkpoint that cannot be read.
+    pub(crate) fn unfit_checkpoint() -> Self {
+        Self::Checkpoint("its bytes are damaged, or another version of the program wrote them".into())
+    }
+
     /// Why a run cannot start.
     pub(crate) fn at_start(stop: Stop) -> Self {
         match stop.reason {

@@ -116,11 +116,22 @@ impl<'a> Job<'a> {
         self.interruption().within(|| {
             let mut simulation = Simulation::new(self.model, self.start, self.plan)?;
             let writer = Writer::create(path, &self.layout(), self.all_attributes())?;
-            let mut sink = RecordingSink::new(self.model, writer, RowHash::default());
+            let mut sink = RecordingSink::new(self.model.clone(), writer, RowHash::default());
             simulation.begin(&mut sink)?;
             sink.writer.flush(&simulation.checkpoint())?;
             self.finish(path, simulation, sink, watch)
         })
+    }
+
+    /// Begins a new recording of a run of this model that somebody steps by hand.
+    ///
+    /// # Errors
+    /// [`RecordError`] if it cannot be written there.
+    pub(crate) fn begin_by_hand(&self, model: &Model, path: &Path) -> Result<RecordingSink, RecordError> {
+        let Self { start, plan, max_wall_time, scene, .. } = *self;
+        let job = Job { model, start, plan, max_wall_time, scene, provenance: self.provenance.clone() };
+        let writer = Writer::create(path, &job.layout(), job.all_attributes())?;
+        Ok(RecordingSink::new(model.clone(), writer, RowHash::default()))
     }
 
     /// The interruption in force, and from now on for as long as the run may take.
@@ -148,7 +159,7 @@ impl<'a> Job<'a> {
         let hash = RowHash::of_recording(&Recording::open(path)?, resumed.rows)?;
         self.interruption().within(|| {
             let simulation = Simulation::resume(self.model, self.start, self.plan, &resumed.checkpoint)?;
-            let sink = RecordingSink::new(self.model, resumed.writer, hash);
+            let sink = RecordingSink::new(self.model.clone(), resumed.writer, hash);
             self.finish(path, simulation, sink, watch)
         })
     }
@@ -162,7 +173,7 @@ impl<'a> Job<'a> {
         &self,
         path: &Path,
         mut simulation: Simulation,
-        mut sink: RecordingSink<'_>,
+        mut sink: RecordingSink,
         watch: &mut dyn Monitor,
     ) -> Result<RecordingEnd, RunError> {
         let began = Instant::now();
@@ -308,8 +319,8 @@ fn describe_body(body: &gyration::body::Body, name: &str, surface: Option<usize>
 }
 
 /// Writes to disk, and flushes now and then.
-struct RecordingSink<'a> {
-    model: &'a Model,
+pub(crate) struct RecordingSink {
+    model: Model,
     writer: Writer,
     flushed: Instant,
     /// Of the rows so far.
@@ -318,15 +329,20 @@ struct RecordingSink<'a> {
     entries: Vec<f64>,
 }
 
-impl<'a> RecordingSink<'a> {
-    fn new(model: &'a Model, writer: Writer, hash: RowHash) -> Self {
+impl RecordingSink {
+    fn new(model: Model, writer: Writer, hash: RowHash) -> Self {
         Self { model, writer, flushed: Instant::now(), hash, entries: Vec::new() }
+    }
+
+    /// Brings all rows to the disk.
+    pub fn flush(&mut self, checkpoint: &[u8]) -> Result<(), RecordError> {
+        self.writer.flush(checkpoint)
     }
 }
 
-impl Sink for RecordingSink<'_> {
+impl Sink for RecordingSink {
     fn exchanges(&mut self, exchanges: &[Exchange]) -> Result<(), RecordError> {
-        self.writer.append_entries(pairs::entries(self.model, exchanges, &mut self.entries))
+        self.writer.append_entries(pairs::entries(&self.model, exchanges, &mut self.entries))
     }
 
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {

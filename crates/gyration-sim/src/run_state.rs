@@ -106,10 +106,7 @@ impl RunState {
         let Looseness { of_lengths, of_pairs } = self.looseness;
         let reals = [self.time, self.initial_energy, self.largest_residual, of_lengths, of_pairs, self.smallest_gap];
         let mut bytes = Vec::new();
-        let mut list = |numbers: &mut dyn ExactSizeIterator<Item = u64>| {
-            bytes.extend((numbers.len() as u64).to_le_bytes());
-            numbers.for_each(|number| bytes.extend(number.to_le_bytes()));
-        };
+        let mut list = |numbers: &mut dyn ExactSizeIterator<Item = u64>| put_list(&mut bytes, numbers);
         list(&mut integers.into_iter());
         let reals = [&reals[..], &self.sampled_impulses].concat();
         list(&mut reals.iter().map(|real| real.to_bits()));
@@ -231,8 +228,14 @@ impl IslandMemory {
     }
 }
 
-/// A list of numbers behind its length.
-fn list(rest: &mut &[u8]) -> Option<Vec<u64>> {
+/// Adds a list of numbers behind its length.
+pub(crate) fn put_list(bytes: &mut Vec<u8>, numbers: &mut dyn ExactSizeIterator<Item = u64>) {
+    bytes.extend((numbers.len() as u64).to_le_bytes());
+    numbers.for_each(|number| bytes.extend(number.to_le_bytes()));
+}
+
+/// A list of numbers behind its length; none where the bytes are no such list.
+pub(crate) fn list(rest: &mut &[u8]) -> Option<Vec<u64>> {
     let count = usize::try_from(take(rest)?).ok()?;
     if count > rest.len() / 8 {
         return None;

@@ -4,9 +4,15 @@
 //!
 //! Applied values are held from one change to the next (zero-order hold); they belong to the stepper and not to the
 //! scene. Their work is `work.load`, that of a changed drive `work.drive`, so that the ledger still closes. After a
-//! change the rates are evaluated anew and the error history is forgotten, the size of the step is not. Nothing is
-//! recorded, and the run does not end by itself: neither at the scene's end nor at rest.
+//! change the rates are evaluated anew and the error history is forgotten, the size of the step is not. The run does
+//! not end by itself: neither at the scene's end nor at rest. It can be begun anew elsewhere (`begun_anew`), goes on
+//! from a checkpoint (`checkpoint`), and is recorded where somebody asks for it (`recorder`).
 
+mod begun_anew;
+mod checkpoint;
+mod recorder;
+
+pub use self::begun_anew::BodyStart;
 use crate::events::Event;
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
@@ -24,23 +30,27 @@ use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
 use gyration::tensor::Mat3;
 use gyration_ode::Statistics;
-use gyration_record::RecordError;
 use gyration_scene::Built;
-use std::collections::BTreeSet;
+use recorder::Kept;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// A run that its caller steps.
 pub struct SteppedRun {
     simulation: Simulation,
+    /// The model as the scene gives it, to which nothing is applied.
+    scene: Model,
+    /// As the scene asks for it, without samples.
+    plan: RunPlan,
     /// The bodies whose loads or drives have changed since the last step.
     changed: BTreeSet<usize>,
-    /// The scene's end [s].
-    end: f64,
-    events: Vec<Event>,
+    /// The drives that are held in the place of those of the scene.
+    drives: BTreeMap<usize, Mat3>,
+    kept: Kept,
 }
 
 /// Why a change was refused.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// The scene has no such body.
     #[error("there is no body number {index}: the scene has {count}")]
@@ -65,6 +75,19 @@ pub enum Refusal {
         /// The body.
         body: String,
     },
+    /// A body cannot move like that.
+    #[error(
+        "body {body:?} cannot have this {quantity}: what it is and what it is kept to leave out {off:.1e} of it; give \
+         a rigid body a rotation P with Pdot = [omega]x P, and what joints, pins and incompressibility allow"
+    )]
+    Impossible {
+        /// The body.
+        body: String,
+        /// `position`, `P`, `velocity` or `Pdot`.
+        quantity: &'static str,
+        /// What is left of it, in its unit.
+        off: f64,
+    },
 }
 
 impl SteppedRun {
@@ -75,11 +98,10 @@ impl SteppedRun {
     pub fn new(built: &Built) -> Result<Self, RunError> {
         let model = built.model.clone().under_control();
         let start = State { works: vec![0.0; model.works().len()], ..built.state.clone() };
-        // There are no samples that a window would have to end for.
-        let plan = RunPlan { stop_at_rest: None, sample: f64::INFINITY, ..RunPlan::from(built) };
-        let mut simulation = Simulation::new(&model, &start, plan)?;
-        simulation.begin(&mut MemorySink::default())?;
-        Ok(Self { simulation, changed: BTreeSet::new(), end: plan.end, events: Vec::new() })
+        let plan = stepped_plan(built);
+        let simulation = begun(&model, &start, plan)?;
+        let (changed, drives) = (BTreeSet::new(), BTreeMap::new());
+        Ok(Self { simulation, scene: model, plan, changed, drives, kept: Kept::default() })
     }
 
     /// The model as it is now.
@@ -104,7 +126,7 @@ impl SteppedRun {
 
     /// The events of all steps so far.
     pub fn events(&self) -> &[Event] {
-        &self.events
+        &self.kept.events
     }
 
     /// Placement and velocity of a body.
@@ -190,19 +212,11 @@ impl SteppedRun {
         if !value.iter().all(|number| number.is_finite()) {
             return Err(Refusal::NotFinite { body: name });
         }
-        let constant = Signal::Constant(value);
-        // Whether it has another drive from now on; none where it has no drive.
-        let set = |model: &mut Model, at: usize| match &mut Arc::make_mut(&mut model.bodies[at]).kind {
-            BodyKind::Contractile(contractile) => match &mut contractile.contraction.source {
-                ContractionSource::Driven { drive, .. } => Some(std::mem::replace(drive, constant.clone()) != constant),
-                ContractionSource::Prescribed(_) => None,
-            },
-            BodyKind::Rigid(_) | BodyKind::Affine(_) => None,
-        };
-        match self.simulation.change(body, set) {
+        match change_drive(&mut self.simulation, body, value) {
             None => Err(Refusal::NoDrive { body: name }),
             Some(changed) => {
                 self.changed.extend(changed.then_some(body));
+                self.drives.insert(body, value);
                 Ok(())
             }
         }
@@ -215,7 +229,7 @@ impl SteppedRun {
     /// [`Stop`] if the run cannot go on; the state stays the last one.
     pub fn step(&mut self) -> Result<(), Stop> {
         let time = self.time();
-        let end = if time < self.end { self.end } else { time + self.end };
+        let end = if time < self.plan.end { self.plan.end } else { time + self.plan.end };
         self.restart_changed()?;
         match self.simulation.shortest_step()? {
             None => self.step_towards(end, &mut Unwatched),
@@ -243,14 +257,18 @@ impl SteppedRun {
 
     fn window(&mut self, monitor: &mut dyn Monitor) -> Result<(), Stop> {
         let end = self.simulation.plan.end;
-        let mut kept = EventList(std::mem::take(&mut self.events));
-        let stepped = self.simulation.step(&mut kept, monitor);
-        self.events = kept.0;
-        match stepped {
-            Ok(stepped) => stepped?,
-            Err(error) => unreachable!("events that are kept in memory cannot fail: {error}"),
-        }
+        let stepped = self.simulation.step(&mut self.kept, monitor);
         let time = self.time();
+        let sampled = match self.simulation.plan.sample.is_finite() {
+            true => self.simulation.sample_until(time, &mut self.kept),
+            // Of no samples the first is none.
+            false => Ok(Ok(())),
+        };
+        let flushed = self.kept.window_end(&self.simulation);
+        match stepped.and_then(|stepped| Ok((stepped.and(sampled?), flushed?).0)) {
+            Ok(stepped) => stepped?,
+            Err(error) => unreachable!("whoever keeps rows and events notes what fails: {error}"),
+        }
         match self.simulation.ask(monitor).filter(|_| time < end) {
             Some(reason) => Err(Stop::by_request(time, reason)),
             None => Ok(()),
@@ -273,12 +291,27 @@ impl SteppedRun {
     }
 }
 
-/// Keeps events.
-struct EventList(Vec<Event>);
+/// As a scene asks for it; without samples, for which a window would have to end.
+fn stepped_plan(built: &Built) -> RunPlan {
+    RunPlan { stop_at_rest: None, sample: f64::INFINITY, ..RunPlan::from(built) }
+}
 
-impl Sink for EventList {
-    fn event(&mut self, event: &Event) -> Result<(), RecordError> {
-        self.0.push(*event);
-        Ok(())
-    }
+/// A run at its first state.
+fn begun(model: &Model, start: &State, plan: RunPlan) -> Result<Simulation, RunError> {
+    let mut simulation = Simulation::new(model, start, plan)?;
+    simulation.begin(&mut MemorySink::default())?;
+    Ok(simulation)
+}
+
+/// Puts a constant drive in the place of that of a body: whether it is another one; none where the body has no drive.
+fn change_drive(simulation: &mut Simulation, body: usize, value: Mat3) -> Option<bool> {
+    let constant = Signal::Constant(value);
+    let set = |model: &mut Model, at: usize| match &mut Arc::make_mut(&mut model.bodies[at]).kind {
+        BodyKind::Contractile(contractile) => match &mut contractile.contraction.source {
+            ContractionSource::Driven { drive, .. } => Some(std::mem::replace(drive, constant.clone()) != constant),
+            ContractionSource::Prescribed(_) => None,
+        },
+        BodyKind::Rigid(_) | BodyKind::Affine(_) => None,
+    };
+    simulation.change(body, set)
 }

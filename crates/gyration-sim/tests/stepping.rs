@@ -363,3 +363,61 @@ proptest! {
         prop_assert!(residual < 1e-7 * in_play, "{} of {}", residual, in_play);
     }
 }
+
+/// Bodies that are pushed and meet a table, with what is applied changed on the way: unlike in all directions.
+const PUSHED: &str = r#"
+    time = { end = 1, sample = 0.1 }
+    [[support]]
+    name = "table"
+    plane = { origin = [0, 0, 0], normal = [0.1, 0.2, 1] }
+    [[contact]]
+    support = "table"
+    repulsion = { alpha = 4e4, nu = 6, d0 = 0.002 }
+    [[body]]
+    name = "a"
+    shape = { box = { size = [0.1, 0.2, 0.3] } }
+    mass = 2.0
+    position = [0, 0, 0.25]
+    angular_velocity = [1, 2, 3]
+    [[body]]
+    name = "b"
+    shape = { sphere = { radius = 0.1 } }
+    mass = 1.0
+    position = [1, 0, 0.4]
+"#;
+
+#[test]
+fn a_stepped_run_goes_on_from_its_checkpoint_after_any_step() {
+    let mut run = stepper(PUSHED);
+    let mut kept = Vec::new();
+    for step in 0..40 {
+        if step % 7 == 0 {
+            run.apply(step / 7 % 2, force(Vec3::new(0.3, -0.1 * step as f64, 0.2))).unwrap();
+        }
+        kept.push(run.checkpoint());
+        run.step().unwrap();
+    }
+    for (step, pair) in kept.windows(2).enumerate() {
+        let mut other = run.restored(&pair[0]).unwrap();
+        assert_eq!(other.checkpoint(), pair[0], "step {step}");
+        other.step().unwrap();
+        if (step + 1) % 7 == 0 {
+            let step = step + 1;
+            other.apply(step / 7 % 2, force(Vec3::new(0.3, -0.1 * step as f64, 0.2))).unwrap();
+        }
+        assert_eq!(other.checkpoint(), pair[1], "step {step}");
+    }
+}
+
+#[test]
+fn what_is_no_checkpoint_of_a_stepped_run_is_refused() {
+    let mut run = stepper(PUSHED);
+    run.apply(1, force(Vec3::x())).unwrap();
+    run.advance(0.2, &mut Unwatched).unwrap();
+    let checkpoint = run.checkpoint();
+    for length in (0..checkpoint.len()).step_by(8) {
+        // An end between two islands leaves fewer bodies than there are.
+        assert!(run.restored(&checkpoint[..length]).is_err(), "{length}");
+    }
+    assert!(stepper(&tumbling(RIGID)).restored(&checkpoint).is_err());
+}

@@ -77,6 +77,24 @@ impl Quaternion {
         (largest > 0.0).then(|| Self(numbers.map(|number| number / largest)).normalized())
     }
 
+    /// The unit quaternion of a rotation matrix; of another matrix some rotation near it.
+    ///
+    ///   4 q qᵀ of R has the diagonal 1 ± R₁₁ ± R₂₂ ± R₃₃: its row with the largest entry, to length one.
+    pub fn of_rotation(r: &Mat3) -> Self {
+        let (x, y, z) = (r[(0, 0)], r[(1, 1)], r[(2, 2)]);
+        let (a, b, c) = (r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]);
+        let (d, e, f) = (r[(1, 0)] + r[(0, 1)], r[(0, 2)] + r[(2, 0)], r[(2, 1)] + r[(1, 2)]);
+        let rows = [
+            [1.0 + x + y + z, a, b, c],
+            [a, 1.0 + x - y - z, d, e],
+            [b, d, 1.0 - x + y - z, f],
+            [c, e, f, 1.0 - x - y + z],
+        ];
+        let diagonal = |row: usize| rows[row][row];
+        let largest = (1..4).fold(0, |best, row| if diagonal(row) > diagonal(best) { row } else { best });
+        Self::along(rows[largest]).unwrap_or(Self::IDENTITY)
+    }
+
     /// The rotation by `angle` [rad] about `axis` (any length but zero).
     pub fn from_axis_angle(axis: &Vec3, angle: f64) -> Self {
         let (sin, cos) = libm::sincos(0.5 * angle);
@@ -157,6 +175,20 @@ pub fn rigid_gradient_rate(rotation: &Mat3, spin: &Vec3) -> Mat3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_rotation_has_its_quaternion_wherever_it_turns() {
+        for axis in [Vec3::x(), Vec3::y(), Vec3::z(), Vec3::new(1.0, -2.0, 0.5)] {
+            for angle in [0.0, 1e-9, 1.0, 3.0, std::f64::consts::PI, 5.0] {
+                let rotation = Quaternion::from_axis_angle(&axis, angle).rotation();
+                let found = Quaternion::of_rotation(&rotation);
+                assert!(
+                    (found.rotation() - rotation).norm() < 1e-15 && (found.norm() - 1.0).abs() < 1e-15,
+                    "{axis} {angle}"
+                );
+            }
+        }
+    }
 
     #[test]
     fn rotation_follows_the_axis_and_the_product() {

@@ -101,6 +101,14 @@ impl State {
         Self { time: 0.0, bodies, low: Vec::new(), works: vec![0.0; model.works().len()] }
     }
 
+    /// Puts one body to a start; the others, and what the fluid remembers of it, stay.
+    pub fn put(&mut self, model: &Model, body: usize, start: &Start) {
+        start.write(&model.bodies[body], model.slots(body), &mut self.bodies);
+        if let Some(lacking) = self.low.get_mut(model.blocks()[body].clone()) {
+            lacking.fill(0.0);
+        }
+    }
+
     /// The numbers of the bodies to all their digits.
     pub fn numbers(&self) -> Numbers<'_> {
         Numbers { high: &self.bodies, low: &self.low }

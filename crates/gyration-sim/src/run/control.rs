@@ -3,8 +3,9 @@
 use super::Simulation;
 use crate::island::Island;
 use crate::outcome::Stop;
+use crate::ports::{RunError, Sink};
 use gyration::model::Model;
-use gyration::state::BodyMotion;
+use gyration::state::{BodyMotion, State};
 
 impl Simulation {
     /// Restarts the stepper of the island of a body after a change of its loads or drive.
@@ -20,6 +21,18 @@ impl Simulation {
         change(&mut self.model, body)
     }
 
+    /// Records the present state, and from now on samples of this spacing [s]; infinite: none.
+    ///
+    /// # Errors
+    /// [`RunError::Record`] if the row cannot be stored; within, a stop if the state is outside the model.
+    pub(crate) fn sample_from_now(&mut self, sample: f64, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
+        let time = self.state.time;
+        self.plan.sample = sample;
+        self.state.next_sample = self.plan.next_sample(time);
+        self.sample(time);
+        self.record(sink)
+    }
+
     /// Lets all islands that are beyond the time of the run end a step there.
     pub(crate) fn land(&mut self) {
         let time = self.state.time;
@@ -30,6 +43,16 @@ impl Simulation {
             debug_assert!(landed.is_ok(), "a step that was made can be cut");
         }
         self.commit(self.least_time());
+    }
+
+    /// The state from which its scales come.
+    pub(crate) fn start(&self) -> &State {
+        &self.start
+    }
+
+    /// The speed scale of a body [m/s].
+    pub(crate) fn speed(&self, body: usize) -> f64 {
+        self.speeds[body]
     }
 
     /// Placement and velocity of a body after the last step of its island.

@@ -129,8 +129,18 @@ impl Simulation {
     /// # Errors
     /// [`RunError::Checkpoint`] if the bytes are not a checkpoint of this scene.
     pub fn resume(model: &Model, start: &State, plan: RunPlan, checkpoint: &[u8]) -> Result<Self, RunError> {
-        let unfit =
-            || RunError::Checkpoint("its bytes are damaged, or another version of the program wrote them".into());
+        Self::resume_changed(model, start, plan, checkpoint, |_| {})
+    }
+
+    /// The same after changes of loads and drives, which the scales do not know of.
+    pub(crate) fn resume_changed(
+        model: &Model,
+        start: &State,
+        plan: RunPlan,
+        checkpoint: &[u8],
+        change: impl FnOnce(&mut Self),
+    ) -> Result<Self, RunError> {
+        let unfit = RunError::unfit_checkpoint;
         let (state, memories) = RunState::restore(checkpoint).ok_or_else(unfit)?;
         let members: Vec<Vec<usize>> = memories.iter().map(|memory| memory.members.clone()).collect();
         if !may_be_islands(model, &members) {
@@ -141,6 +151,7 @@ impl Simulation {
         if !(state.time <= plan.end && memories.iter().all(is_before)) {
             return Err(unfit());
         }
+        change(&mut this);
         for (island, memory) in this.partition.islands.iter_mut().zip(&memories) {
             island.resume(memory, &plan, state.time)?;
         }

@@ -38,6 +38,14 @@ impl Simulation {
     pub(super) fn sample_window(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
         // Behind the time of rest there are none.
         let last = self.rest().map_or(self.state.time, |rest| rest.min(self.state.time));
+        if let Err(stop) = self.sample_until(last, sink)? {
+            return Ok(Err(stop));
+        }
+        if last >= self.plan.end { self.record_last(sink) } else { Ok(Ok(())) }
+    }
+
+    /// Records the samples up to a time that all bodies have come to; one outside the model is a stop.
+    pub(crate) fn sample_until(&mut self, last: f64, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
         while self.sample_time(self.state.next_sample) <= last {
             self.sample(self.sample_time(self.state.next_sample));
             if let Err(stop) = self.record(sink)? {
@@ -45,7 +53,7 @@ impl Simulation {
             }
             self.state.next_sample += 1;
         }
-        if last >= self.plan.end { self.record_last(sink) } else { Ok(Ok(())) }
+        Ok(Ok(()))
     }
 
     /// Records the state at the time of the run, unless it was just sampled.
