@@ -1,4 +1,4 @@
-//! The state of a simulation as arrays of NumPy, which each step writes into in place.
+//! The states of simulations as arrays of NumPy, which each step writes into in place.
 //!
 //! Python cannot write to them: a controller that tried to set a state this way would be told, instead of being
 //! ignored.
@@ -9,41 +9,20 @@ use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// The state of all bodies, an array a quantity.
-pub struct Arrays {
-    pub position: Py<PyArrayDyn<f64>>,
-    pub gradient: Py<PyArrayDyn<f64>>,
-    pub velocity: Py<PyArrayDyn<f64>>,
-    pub gradient_rate: Py<PyArrayDyn<f64>>,
-    pub contraction: Py<PyArrayDyn<f64>>,
-    pub gap: Py<PyArrayDyn<f64>>,
+/// The state of all bodies of one simulation: vectors, matrices row by row.
+pub struct StateNumbers {
+    position: Vec<f64>,
+    gradient: Vec<f64>,
+    velocity: Vec<f64>,
+    gradient_rate: Vec<f64>,
+    contraction: Vec<f64>,
+    /// None if the state is outside the model, which an accepted one is not.
+    gap: Result<Vec<f64>, Stop>,
 }
 
-impl Arrays {
-    /// Arrays of zeros for so many bodies.
-    pub fn new(py: Python<'_>, bodies: usize) -> PyResult<Self> {
-        let zeros = |shape: &[usize]| -> PyResult<Py<PyArrayDyn<f64>>> {
-            let array = PyArrayDyn::zeros(py, shape.to_vec(), false);
-            let keywords = PyDict::new(py);
-            keywords.set_item("write", false)?;
-            array.call_method("setflags", (), Some(&keywords))?;
-            Ok(array.unbind())
-        };
-        Ok(Self {
-            position: zeros(&[bodies, 3])?,
-            gradient: zeros(&[bodies, 3, 3])?,
-            velocity: zeros(&[bodies, 3])?,
-            gradient_rate: zeros(&[bodies, 3, 3])?,
-            contraction: zeros(&[bodies, 3, 3])?,
-            gap: zeros(&[bodies])?,
-        })
-    }
-
-    /// Writes the state into the arrays.
-    ///
-    /// # Errors
-    /// [`Stop`] if the state is outside the model, which an accepted one is not; gaps are then what they were.
-    pub fn refresh(&self, py: Python<'_>, stepper: &SteppedRun) -> Result<(), Stop> {
+impl StateNumbers {
+    /// The state of a simulation.
+    pub fn of(stepper: &SteppedRun) -> Self {
         let state = stepper.state();
         let model = stepper.model();
         let bodies = 0..model.bodies.len();
@@ -55,23 +34,70 @@ impl Arrays {
         let matrices = |of: &dyn Fn(usize) -> Mat3| -> Vec<f64> {
             bodies.clone().flat_map(|body| of(body).transpose().as_slice().to_vec()).collect()
         };
-        write(py, &self.position, &vectors(&|body| stepper.motion(body).placement.position));
-        write(py, &self.gradient, &matrices(&|body| stepper.motion(body).placement.gradient));
-        write(py, &self.velocity, &vectors(&|body| stepper.motion(body).velocity.velocity));
-        write(py, &self.gradient_rate, &matrices(&|body| stepper.motion(body).velocity.gradient_rate));
-        write(py, &self.contraction, &matrices(&|body| state.contraction(model, body).unwrap_or(no_matrix)));
-        write(py, &self.gap, &stepper.gaps()?);
+        Self {
+            position: vectors(&|body| stepper.motion(body).placement.position),
+            gradient: matrices(&|body| stepper.motion(body).placement.gradient),
+            velocity: vectors(&|body| stepper.motion(body).velocity.velocity),
+            gradient_rate: matrices(&|body| stepper.motion(body).velocity.gradient_rate),
+            contraction: matrices(&|body| state.contraction(model, body).unwrap_or(no_matrix)),
+            gap: stepper.gaps(),
+        }
+    }
+}
+
+/// The states of simulations, an array a quantity.
+pub struct Arrays {
+    pub position: Py<PyArrayDyn<f64>>,
+    pub gradient: Py<PyArrayDyn<f64>>,
+    pub velocity: Py<PyArrayDyn<f64>>,
+    pub gradient_rate: Py<PyArrayDyn<f64>>,
+    pub contraction: Py<PyArrayDyn<f64>>,
+    pub gap: Py<PyArrayDyn<f64>>,
+}
+
+impl Arrays {
+    /// Arrays of zeros of this shape for each entry of a quantity: (bodies,), or (members, bodies).
+    pub fn new(py: Python<'_>, shape: &[usize]) -> PyResult<Self> {
+        let zeros = |of_one: &[usize]| -> PyResult<Py<PyArrayDyn<f64>>> {
+            let array = PyArrayDyn::zeros(py, [shape, of_one].concat(), false);
+            let keywords = PyDict::new(py);
+            keywords.set_item("write", false)?;
+            array.call_method("setflags", (), Some(&keywords))?;
+            Ok(array.unbind())
+        };
+        Ok(Self {
+            position: zeros(&[3])?,
+            gradient: zeros(&[3, 3])?,
+            velocity: zeros(&[3])?,
+            gradient_rate: zeros(&[3, 3])?,
+            contraction: zeros(&[3, 3])?,
+            gap: zeros(&[])?,
+        })
+    }
+
+    /// Writes the state of a member into the arrays; that of a simulation alone is number 0.
+    ///
+    /// # Errors
+    /// [`Stop`] if the gaps are not known: they are then what they were.
+    pub fn show(&self, py: Python<'_>, member: usize, numbers: StateNumbers) -> Result<(), Stop> {
+        write(py, &self.position, member, &numbers.position);
+        write(py, &self.gradient, member, &numbers.gradient);
+        write(py, &self.velocity, member, &numbers.velocity);
+        write(py, &self.gradient_rate, member, &numbers.gradient_rate);
+        write(py, &self.contraction, member, &numbers.contraction);
+        write(py, &self.gap, member, &numbers.gap?);
         Ok(())
     }
 }
 
-/// Copies numbers into an array that only we write to.
-fn write(py: Python<'_>, array: &Py<PyArrayDyn<f64>>, numbers: &[f64]) {
+/// Copies the numbers of a member into an array that only we write to.
+fn write(py: Python<'_>, array: &Py<PyArrayDyn<f64>>, member: usize, numbers: &[f64]) {
     let array = array.bind(py);
-    debug_assert_eq!(array.len(), numbers.len());
+    let place = member * numbers.len()..(member + 1) * numbers.len();
+    debug_assert!(place.end <= array.len());
     // SAFETY: the array was made here, contiguous and of this length; the interpreter's lock is held, and Python cannot
     // write to it, so that nobody else has a reference into it while these numbers are copied.
     if let Ok(slice) = unsafe { array.as_slice_mut() } {
-        slice.copy_from_slice(numbers);
+        slice[place].copy_from_slice(numbers);
     }
 }

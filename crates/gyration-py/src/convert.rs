@@ -212,6 +212,24 @@ pub fn array<'py, T: Element>(py: Python<'py>, numbers: Vec<T>, shape: &[usize])
     Ok(PyArray::from_vec(py, numbers).reshape(shape.to_vec())?.into_any())
 }
 
+/// The numbers of an array of this shape, or of lists in its form.
+pub fn numbers_of_shape(name: &str, object: &Bound<'_, PyAny>, shape: &[usize]) -> PyResult<Vec<f64>> {
+    let read = || -> PyResult<(Vec<usize>, Vec<f64>)> {
+        let array = object.py().import("numpy")?.call_method1("asarray", (object, "float64"))?;
+        Ok((array.getattr("shape")?.extract()?, array.call_method0("ravel")?.extract()?))
+    };
+    match read() {
+        Ok((found, numbers)) if found == shape => Ok(numbers),
+        Ok((found, _)) => Err(errors::arguments(format!(
+            "`{name}` has the shape {found:?}\n  fix: give an array of numbers of the shape {shape:?}"
+        ))),
+        Err(_) => Err(errors::arguments(format!(
+            "`{name}` is {}\n  fix: give an array of numbers of the shape {shape:?}",
+            shown(object)
+        ))),
+    }
+}
+
 /// The items of a list in an object of JSON.
 pub fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {
     value[name].as_array().map_or(&[], Vec::as_slice)

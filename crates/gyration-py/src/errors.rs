@@ -75,6 +75,11 @@ pub fn write(path: &std::path::Path, error: &std::io::Error) -> PyErr {
     raise("FileError", &format!("cannot write {}: {}", path.display(), in_words(error)), nothing)
 }
 
+/// A file that cannot be read, or is not what it should be.
+pub fn unreadable(path: &std::path::Path, why: &str) -> PyErr {
+    raise("FileError", &format!("cannot read {}: {why}", path.display()), nothing)
+}
+
 /// A run that cannot begin or go on.
 pub fn run(error: RunError) -> PyErr {
     match error {

@@ -16,8 +16,10 @@
 mod arrays;
 mod bands;
 mod calibration;
+mod control_loop;
 mod convert;
 mod errors;
+mod load;
 mod many;
 mod modes;
 mod monitor;
@@ -26,9 +28,11 @@ mod picture;
 mod recording;
 mod resistance;
 mod run;
+mod saved;
 mod scene;
 mod sensitivities;
 mod simulation;
+mod start;
 mod study;
 mod table;
 mod worker;
@@ -43,6 +47,8 @@ mod _gyration {
     use super::bands::bands;
     #[pymodule_export]
     use super::calibration::{Fit, calibrate};
+    #[pymodule_export]
+    use super::control_loop::simulate;
     #[pymodule_export]
     use super::convert::says_stop;
     #[pymodule_export]
@@ -62,7 +68,7 @@ mod _gyration {
     #[pymodule_export]
     use super::sensitivities::sensitivities;
     #[pymodule_export]
-    use super::simulation::{Simulation, simulate};
+    use super::simulation::{Simulation, simulation_again};
     #[pymodule_export]
     use super::study::{Lock, StudyWork};
     #[pymodule_export]

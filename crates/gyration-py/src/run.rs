@@ -42,7 +42,7 @@ pub fn run(
 }
 
 /// The folder of the recording, and what removes it if nobody asked for it.
-fn place(options: &RecordOptions, name: &str) -> PyResult<(PathBuf, Option<Arc<TempDir>>)> {
+pub fn place(options: &RecordOptions, name: &str) -> PyResult<(PathBuf, Option<Arc<TempDir>>)> {
     let Some(path) = &options.output else {
         if options.resume {
             return Err(errors::arguments(

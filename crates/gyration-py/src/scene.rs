@@ -20,7 +20,8 @@ pub type SceneParts = (String, String, PathBuf, Vec<String>);
 
 /// A scene: bodies, supports, laws, how long to run and how precisely. It has no errors, and does not change: `edit`
 /// gives another one.
-#[pyclass(frozen, module = "gyration", name = "Scene")]
+#[pyclass(frozen, from_py_object, module = "gyration", name = "Scene")]
+#[derive(Clone)]
 pub struct Scene {
     pub inner: Arc<Inner>,
     /// What messages call it, and the folder to which its paths are relative.
@@ -30,31 +31,36 @@ pub struct Scene {
 
 impl Scene {
     /// What it is made of, for whoever works in another folder: name, text, folder, edits.
-    fn parts(&self) -> SceneParts {
+    pub fn parts(&self) -> SceneParts {
         let base = convert::elsewhere(&self.base);
         (self.file.clone(), self.inner.text().to_owned(), base, self.inner.overrides())
     }
 
     /// Reads a text without the lock: a mesh may take a while.
-    fn parse(py: Python<'_>, file: String, text: &str, base: PathBuf, overrides: &[String]) -> PyResult<Self> {
+    pub fn parse(py: Python<'_>, file: String, text: &str, base: PathBuf, overrides: &[String]) -> PyResult<Self> {
         let inner =
             py.detach(|| Inner::parse(&file, text, &base, overrides)).map_err(|error| errors::content(&error))?;
         Ok(Self { inner: Arc::new(inner), file, base })
     }
 
-    /// The same, ready to run: with the resistances that boundary elements tell.
+    /// The scene of an argument, ready to run: with the resistances that boundary elements tell.
     pub fn ready(argument: &Bound<'_, PyAny>) -> PyResult<Arc<Inner>> {
         completed(argument.py(), Self::of(argument)?)
     }
 
     /// The scene that an argument stands for: a scene, a dictionary, a path or the name of one in the gallery.
     pub fn of(argument: &Bound<'_, PyAny>) -> PyResult<Arc<Inner>> {
+        Ok(Self::from_argument(argument)?.inner)
+    }
+
+    /// The same with its name and folder.
+    pub fn from_argument(argument: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = argument.py();
         if let Ok(scene) = argument.cast::<Self>() {
-            return Ok(scene.get().inner.clone());
+            return Ok(scene.get().clone());
         }
         if let Ok(data) = argument.cast::<PyDict>() {
-            return Ok(Self::from_dict(&py.get_type::<Self>(), data, "scene", None, None)?.inner);
+            return Self::from_dict(&py.get_type::<Self>(), data, "scene", None, None);
         }
         let name: PathBuf = argument.extract().map_err(|_| {
             errors::arguments(format!(
@@ -63,7 +69,16 @@ impl Scene {
             ))
         })?;
         let opened = py.detach(|| Inner::open(&name.to_string_lossy(), &[]));
-        Ok(Arc::new(opened.map_err(errors::load)?))
+        let inner = Arc::new(opened.map_err(errors::load)?);
+        let base = name.parent().unwrap_or(Path::new("")).to_path_buf();
+        // One of the gallery is called so by itself.
+        let file = if name.exists() { name.display().to_string() } else { format!("{}.toml", name.display()) };
+        Ok(Self { inner, file, base })
+    }
+
+    /// The same, ready to run.
+    pub fn complete(self, py: Python<'_>) -> PyResult<Self> {
+        Ok(Self { inner: completed(py, self.inner.clone())?, ..self })
     }
 }
 
@@ -140,6 +155,12 @@ impl Scene {
     /// A value of the resolved scene by its dotted key, in SI units: ``scene["body.die.velocity"]``.
     fn __getitem__<'py>(&self, py: Python<'py>, key: &str) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, find(&self.inner.resolved(), key)?)
+    }
+
+    fn _ipython_key_completions_(&self) -> Vec<String> {
+        let mut keys = Vec::new();
+        add_keys(&self.inner.resolved(), "", &mut keys);
+        keys
     }
 
     /// The name of the scene: that of its file without folder and ending.
@@ -291,16 +312,30 @@ fn find<'a>(resolved: &'a Value, key: &str) -> PyResult<&'a Value> {
     Ok(at)
 }
 
+/// Adds the dotted keys of a value; items of arrays by name, else by index.
+fn add_keys(value: &Value, before: &str, keys: &mut Vec<String>) {
+    let parts: Vec<(String, &Value)> = match value {
+        Value::Object(entries) => entries.iter().map(|(name, part)| (name.clone(), part)).collect(),
+        Value::Array(items) if items.iter().all(Value::is_object) => items.iter().enumerate().map(item_name).collect(),
+        _ => Vec::new(),
+    };
+    for (name, part) in parts {
+        let key = if before.is_empty() { name } else { format!("{before}.{name}") };
+        add_keys(part, &key, keys);
+        keys.push(key);
+    }
+}
+
+/// An item of an array with its name, or its index.
+fn item_name((index, item): (usize, &Value)) -> (String, &Value) {
+    (item.get("name").and_then(Value::as_str).map_or(index.to_string(), str::to_owned), item)
+}
+
 /// What a value has, in words.
 fn names(value: &Value) -> String {
     match value {
         Value::Object(entries) => entries.keys().cloned().collect::<Vec<_>>().join(", "),
-        Value::Array(items) => {
-            let name = |(index, item): (usize, &Value)| {
-                item.get("name").and_then(Value::as_str).map_or(index.to_string(), str::to_owned)
-            };
-            items.iter().enumerate().map(name).collect::<Vec<_>>().join(", ")
-        }
+        Value::Array(items) => items.iter().enumerate().map(|item| item_name(item).0).collect::<Vec<_>>().join(", "),
         other => format!("no parts, it is {other}"),
     }
 }

@@ -4,60 +4,78 @@
 //! The arrays belong to the simulation: each step writes into them, and they cannot be written to. Whoever keeps one
 //! over a step sees the new state in it, and takes a copy for the old one.
 
-use crate::arrays::Arrays;
-use crate::convert::{array, says_stop, shown};
+use crate::arrays::{Arrays, StateNumbers};
+use crate::convert::array;
 use crate::errors;
+use crate::load::{body_index, load_of, matrix, vector};
 use crate::monitor::PythonMonitor;
+use crate::recording::Recording;
+use crate::run::{RecordOptions, place};
+use crate::saved;
 use crate::scene::Scene;
-use gyration::load::{Applied, Loads};
-use gyration::tensor::{Mat3, Vec3};
-use gyration_scene::{Scene as Built, suggestion};
+use crate::start::GivenState;
+use gyration::load::Loads;
+use gyration_record::remove;
 use gyration_sim::events::EVENT_KINDS;
 use gyration_sim::{Reason, SteppedRun};
 use numpy::PyArrayDyn;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict, PyType};
+use std::path::PathBuf;
 use std::sync::Arc;
+use tempfile::TempDir;
+
+/// Of what another process makes a simulation again: scene and state.
+type SimulationParts<'py> = (Scene, Bound<'py, PyBytes>);
 
 /// A run stepped by hand.
 #[pyclass(module = "gyration", name = "Simulation")]
 pub struct Simulation {
-    scene: Arc<Built>,
+    scene: Scene,
+    /// Tells its states from those of other scenes.
+    word: u64,
     stepper: SteppedRun,
-    /// What is applied to each body.
-    applied: Vec<Applied>,
     columns: Vec<(String, usize)>,
     arrays: Arrays,
+    /// Where it was recorded last, and what removes the folder if nobody asked for it.
+    recorded: Option<(PathBuf, Option<Arc<TempDir>>)>,
 }
 
 impl Simulation {
-    /// The index of a body given by name or number.
-    fn index(&self, body: &Bound<'_, PyAny>) -> PyResult<usize> {
-        let model = self.stepper.model();
-        let fix = |name: &str| suggestion(name, model.names(), "bodies");
-        if let Ok(name) = body.extract::<String>() {
-            return model
-                .find_body(&name)
-                .ok_or_else(|| errors::arguments(format!("the scene has no body {name:?}\n  fix: {}", fix(&name))));
-        }
-        let index = body.extract().ok().filter(|index| *index < model.bodies.len());
-        index.ok_or_else(|| {
-            let problem = format!("the scene has no body {}", shown(body));
-            errors::arguments(format!("{problem}\n  fix: write a name or a number from 0; {}", fix("")))
-        })
+    fn of(py: Python<'_>, scene: Scene, stepper: SteppedRun) -> PyResult<Self> {
+        let (word, columns) = (saved::scene_word(&scene), stepper.columns());
+        let arrays = Arrays::new(py, &[stepper.model().bodies.len()])?;
+        let this = Self { scene, word, stepper, columns, arrays, recorded: None };
+        this.show(py)?;
+        Ok(this)
+    }
+
+    /// Shows the state in the arrays.
+    fn show(&self, py: Python<'_>) -> PyResult<()> {
+        self.arrays.show(py, 0, StateNumbers::of(&self.stepper)).map_err(|stop| errors::stopped(&stop))
+    }
+
+    /// Goes on with another stepper; a recording ends.
+    fn put(&mut self, py: Python<'_>, stepper: SteppedRun) -> PyResult<()> {
+        self.stepper.stop_recording().map_err(errors::run)?;
+        self.stepper = stepper;
+        self.show(py)
     }
 
     /// Lets the stepper go on without the lock; then shows the new state, whether it came to its end or not. False if
     /// `progress` has stopped it before.
-    fn go(&mut self, py: Python<'_>, until: Option<f64>, monitor: &mut PythonMonitor) -> PyResult<bool> {
+    pub fn go(&mut self, py: Python<'_>, until: Option<f64>, monitor: &mut PythonMonitor) -> PyResult<bool> {
         let stepper = &mut self.stepper;
         let stepped = py.detach(|| match until {
             Some(until) => stepper.advance(until, monitor),
             None => stepper.step(),
         });
-        let refreshed = self.arrays.refresh(py, &self.stepper);
-        match stepped.and(refreshed) {
+        let shown = self.arrays.show(py, 0, StateNumbers::of(&self.stepper));
+        if let Some(failure) = self.stepper.recording_failure() {
+            return Err(errors::record(failure));
+        }
+        match stepped.and(shown) {
             Ok(()) => Ok(!monitor.is_over()),
             Err(stop) if stop.reason == Reason::Interrupted => Ok(false),
             Err(stop) => Err(errors::stopped(&stop)),
@@ -68,13 +86,10 @@ impl Simulation {
 #[pymethods]
 impl Simulation {
     #[new]
-    fn new(py: Python<'_>, scene: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let scene = Scene::ready(scene)?;
-        let stepper = py.detach(|| SteppedRun::new(scene.built())).map_err(errors::run)?;
-        let bodies = stepper.model().bodies.len();
-        let arrays = Arrays::new(py, bodies)?;
-        arrays.refresh(py, &stepper).map_err(|stop| errors::stopped(&stop))?;
-        Ok(Self { scene, columns: stepper.columns(), stepper, applied: vec![Applied::default(); bodies], arrays })
+    pub fn new(py: Python<'_>, scene: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let scene = Scene::from_argument(scene)?.complete(py)?;
+        let stepper = py.detach(|| SteppedRun::new(scene.inner.built())).map_err(errors::run)?;
+        Self::of(py, scene, stepper)
     }
 
     /// The time reached [s].
@@ -85,8 +100,8 @@ impl Simulation {
 
     /// The scene's end [s]; a simulation may go on past it.
     #[getter]
-    fn end(&self) -> f64 {
-        self.scene.built().plan.end
+    pub fn end(&self) -> f64 {
+        self.scene.inner.built().plan.end
     }
 
     /// The names of the bodies, in order.
@@ -137,7 +152,7 @@ impl Simulation {
 
     /// The angular velocity of a body in axes of space [rad/s]; of one that deforms, that of its mean rotation.
     fn angular_velocity<'py>(&self, py: Python<'py>, body: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let spin = self.stepper.motion(self.index(body)?).angular_velocity();
+        let spin = self.stepper.motion(body_index(self.stepper.model(), body)?).angular_velocity();
         array(py, spin.as_slice().to_vec(), &[3])
     }
 
@@ -180,25 +195,19 @@ impl Simulation {
         torque: Option<&Bound<'_, PyAny>>,
         at: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let index = self.index(body)?;
+        let index = body_index(self.stepper.model(), body)?;
         let given = |name, object: Option<&_>| object.map(|object| vector(name, object)).transpose();
         let force = given("force", force)?.unwrap_or_default();
-        let center = self.stepper.model().bodies[index].solid.mass.center;
-        let mut load = match given("at", at)? {
-            None => Applied { force, ..Applied::default() },
-            Some(at) => Applied::at_point(force, &(at - center)),
-        };
-        load.moment += moment.map(|moment| matrix("moment", moment)).transpose()?.unwrap_or_default();
-        load.torque = given("torque", torque)?.unwrap_or_default();
-        self.stepper.apply(index, load).map_err(|refusal| errors::arguments(refusal.to_string()))?;
-        self.applied[index] = load;
-        Ok(())
+        let moment = moment.map(|moment| matrix("moment", moment)).transpose()?.unwrap_or_default();
+        let (torque, at) = (given("torque", torque)?.unwrap_or_default(), given("at", at)?);
+        let load = load_of(force, moment, torque, at, &self.stepper.model().bodies[index].solid.mass.center);
+        self.stepper.apply(index, load).map_err(|refusal| errors::arguments(refusal.to_string()))
     }
 
     /// Puts a constant drive Q [Pa], (3, 3), in the place of the drive that the scene gives in time; feedback stays.
     /// The work is ``works()["drive"]``.
     fn set_drive(&mut self, body: &Bound<'_, PyAny>, drive: &Bound<'_, PyAny>) -> PyResult<()> {
-        let (index, drive) = (self.index(body)?, matrix("drive", drive)?);
+        let (index, drive) = (body_index(self.stepper.model(), body)?, matrix("drive", drive)?);
         self.stepper.set_drive(index, drive).map_err(|refusal| errors::arguments(refusal.to_string()))
     }
 
@@ -282,77 +291,127 @@ impl Simulation {
     }
 
     fn __repr__(&self) -> String {
-        format!("<gyration.Simulation {} at t = {} s>", self.scene.name(), self.time())
+        format!("<gyration.Simulation {} at t = {} s>", self.scene.inner.name(), self.time())
     }
-}
 
-/// A vector in three numbers.
-fn vector(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Vec3> {
-    let numbers: PyResult<[f64; 3]> = object.extract();
-    numbers.map(Vec3::from).map_err(|_| unfit(name, object, "three numbers"))
-}
-
-/// A matrix in three rows.
-fn matrix(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Mat3> {
-    let rows: PyResult<[[f64; 3]; 3]> = object.extract();
-    rows.map(|rows| Mat3::from_fn(|row, column| rows[row][column]))
-        .map_err(|_| unfit(name, object, "three rows of three numbers"))
-}
-
-fn unfit(name: &str, object: &Bound<'_, PyAny>, wanted: &str) -> PyErr {
-    errors::arguments(format!("`{name}` is {}\n  fix: give {wanted}", shown(object)))
-}
-
-/// Steps a scene with a callback at the beginning of each control interval; False from it, or from ``progress``, ends
-/// the run.
-#[pyfunction]
-#[pyo3(signature = (scene, dt, callback, until=None, *, progress=None))]
-pub fn simulate(
-    py: Python<'_>,
-    scene: &Bound<'_, PyAny>,
-    dt: f64,
-    callback: &Bound<'_, PyAny>,
-    until: Option<f64>,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Py<Simulation>> {
-    if !(dt > 0.0 && dt.is_finite()) {
-        return Err(errors::arguments(format!("the control interval `dt` is {dt} s\n  fix: give a time above zero")));
+    fn _ipython_key_completions_(&self) -> Vec<String> {
+        std::iter::once("t".to_owned()).chain(self.columns()).collect()
     }
-    let simulation = Py::new(py, Simulation::new(py, scene)?)?;
-    let end = until.unwrap_or_else(|| simulation.borrow(py).end());
-    let mut monitor = PythonMonitor::new(progress)?.until(end);
-    let done = Intervals { dt, end }.run(py, &simulation, callback, &mut monitor);
-    monitor.finish(py)?;
-    done.map(|()| simulation)
-}
 
-/// Control intervals of one length up to an end [s].
-struct Intervals {
-    dt: f64,
-    end: f64,
-}
+    /// All that its future depends on, as bytes: time, placements, velocities, G, what the fluid remembers, loads and
+    /// drives that are held, memory of the solver; and works and events so far.
+    ///
+    /// Set to what it was once, of this simulation or another one of an equal scene, the simulation is there again, and
+    /// goes on to the same bytes. Raises ``ArgumentError`` if it is a state of another scene.
+    #[getter(state)]
+    fn get_state<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &saved::state_of(&self.stepper, self.word))
+    }
 
-impl Intervals {
-    /// Goes from one to the next, until somebody has had enough.
-    fn run(
-        &self,
+    #[setter(state)]
+    fn put_state(&mut self, py: Python<'_>, state: &[u8]) -> PyResult<()> {
+        let checkpoint = saved::checkpoint_of(state, self.word)?;
+        let restored = py.detach(|| self.stepper.restored(checkpoint)).map_err(errors::run)?;
+        self.put(py, restored)
+    }
+
+    /// Begins anew from a state, as if the scene started there: what is not given is as it is now.
+    ///
+    /// ``time`` [s]; ``position`` [m] and ``velocity`` [m/s], (bodies, 3); ``P``, ``Pdot`` [1/s] and ``G``, (bodies, 3,
+    /// 3). ``P`` without ``Pdot`` keeps the velocity gradient Pdot P⁻¹. Applied loads and drives stay, and so does what
+    /// the fluid remembers. Works count from here, events are forgotten, a recording ends.
+    ///
+    /// Raises ``ArgumentError`` for what a body cannot have (a P of a rigid body that is no rotation, what joints do
+    /// not allow), ``RunError`` for a state outside the model; nothing has changed then.
+    #[pyo3(signature = (*, time=None, position=None, P=None, velocity=None, Pdot=None, G=None))]
+    #[expect(non_snake_case, clippy::too_many_arguments, reason = "keywords of Python")]
+    fn set_state(
+        &mut self,
         py: Python<'_>,
-        simulation: &Py<Simulation>,
-        callback: &Bound<'_, PyAny>,
-        monitor: &mut PythonMonitor,
+        time: Option<f64>,
+        position: Option<&Bound<'_, PyAny>>,
+        P: Option<&Bound<'_, PyAny>>,
+        velocity: Option<&Bound<'_, PyAny>>,
+        Pdot: Option<&Bound<'_, PyAny>>,
+        G: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let Self { dt, end } = *self;
-        // Multiplied, not accumulated; an interval that rounding alone keeps from the end is the last one.
-        for interval in (0_u64..).take_while(|interval| (*interval as f64 * dt) < end * (1.0 - 1e-12)) {
-            if says_stop(&callback.call1((simulation,))?)? {
-                break;
-            }
-            let next = ((interval + 1) as f64 * dt).min(end);
-            // What the callback left running may hold the simulation: that is an error, not a wait.
-            if !simulation.bind(py).try_borrow_mut()?.go(py, Some(next), monitor)? {
-                break;
-            }
+        let given = GivenState { position, gradient: P, velocity, gradient_rate: Pdot, contraction: G };
+        let starts = given.read(&[self.stepper.model().bodies.len()])?.of_member(&self.stepper, 0);
+        let time = time.unwrap_or_else(|| self.time());
+        let begun = py.detach(|| self.stepper.begun_anew(time, &starts)).map_err(errors::run)?;
+        self.put(py, begun.map_err(|refusal| errors::arguments(refusal.to_string()))?)
+    }
+
+    /// Another simulation that stands where this one does; what is done to one is not done to the other. It is not
+    /// recorded.
+    fn copy(&self, py: Python<'_>) -> PyResult<Self> {
+        let stepper = py.detach(|| self.stepper.copy()).map_err(errors::run)?;
+        Self::of(py, self.scene.clone(), stepper)
+    }
+
+    fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
+        self.copy(py)
+    }
+
+    fn __deepcopy__(&self, py: Python<'_>, _memo: &Bound<'_, PyAny>) -> PyResult<Self> {
+        self.copy(py)
+    }
+
+    /// For pickle: the scene and the state.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, SimulationParts<'py>)> {
+        let again = py.import("gyration._gyration")?.getattr("_simulation")?;
+        Ok((again, (self.scene.clone(), self.get_state(py))))
+    }
+
+    /// Writes scene and state into a file, see :meth:`load`. Raises ``FileError`` if it cannot be written.
+    fn save(&self, path: PathBuf) -> PyResult<()> {
+        saved::save(&path, &self.scene, &saved::state_of(&self.stepper, self.word))
+    }
+
+    /// A simulation from a file that :meth:`save` wrote: it goes on to the same bytes. Raises ``FileError`` if the file
+    /// cannot be read or is none, ``ArgumentError`` if a mesh or another version of the package has made it unfit.
+    #[classmethod]
+    fn load(kind: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
+        let (scene, state) = saved::read(kind.py(), &path)?;
+        simulation_again(kind.py(), scene, &state)
+    }
+
+    /// Records from now on: the present state, and samples at the multiples of ``time.sample`` of the scene.
+    ///
+    /// ``path`` is a new folder, replaced with ``force=True``; without it the recording lives in a temporary one, as
+    /// long as it is in use. An earlier recording of this simulation ends. Raises ``FileError`` if nothing can be
+    /// written there.
+    #[pyo3(signature = (path=None, *, force=false))]
+    fn record(&mut self, path: Option<PathBuf>, force: bool) -> PyResult<()> {
+        let options = RecordOptions { output: path, resume: false, force };
+        let (path, kept) = place(&options, self.scene.inner.name())?;
+        self.stepper.stop_recording().map_err(errors::run)?;
+        if path.symlink_metadata().is_ok() {
+            remove(&path).map_err(errors::record)?;
         }
+        self.stepper.record(&self.scene.inner, &gyration_cli::provenance(), &path).map_err(errors::run)?;
+        self.recorded = Some((path, kept));
         Ok(())
     }
+
+    /// What :meth:`record` has recorded so far, as it stands: plots, arrays and report of what was simulated by hand.
+    /// Its outcome is ``unfinished``. Raises ``ArgumentError`` if nothing is recorded, ``FileError`` if that failed.
+    #[getter]
+    fn recording(&mut self) -> PyResult<Recording> {
+        self.stepper.flush().map_err(errors::run)?;
+        let nothing = || errors::arguments("nothing is recorded\n  fix: call record() before the steps");
+        let (path, kept) = self.recorded.as_ref().ok_or_else(nothing)?;
+        let told = format!("simulated by hand, recorded until now at t = {} s", self.stepper.time());
+        Recording::of_run(path, kept.clone(), Some(told))
+    }
+}
+
+/// A simulation again, from its scene and a state.
+#[pyfunction]
+#[pyo3(name = "_simulation")]
+pub fn simulation_again(py: Python<'_>, scene: Scene, state: &[u8]) -> PyResult<Simulation> {
+    let scene = scene.complete(py)?;
+    let checkpoint = saved::checkpoint_of(state, saved::scene_word(&scene))?;
+    let stepper = py.detach(|| SteppedRun::resume(scene.inner.built(), checkpoint)).map_err(errors::run)?;
+    Simulation::of(py, scene, stepper)
 }
