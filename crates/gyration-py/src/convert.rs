@@ -230,6 +230,14 @@ pub fn numbers_of_shape(name: &str, object: &Bound<'_, PyAny>, shape: &[usize]) 
     }
 }
 
+/// The numbers of so many members, for each an array of this shape: one for all, or one for each.
+pub fn numbers_of_members(name: &str, object: &Bound<'_, PyAny>, count: usize, of_one: &[usize]) -> PyResult<Vec<f64>> {
+    if let Ok(numbers) = numbers_of_shape(name, object, of_one) {
+        return Ok(numbers.repeat(count));
+    }
+    numbers_of_shape(name, object, &[&[count], of_one].concat())
+}
+
 /// The items of a list in an object of JSON.
 pub fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {
     value[name].as_array().map_or(&[], Vec::as_slice)

@@ -3,6 +3,7 @@
 //! ```text
 //! Scene ─→ run → Recording → arrays, xarray, pandas, Picture, report
 //!      ├─→ Simulation: step, look, apply, step
+//!      ├─→ Batch: many simulations at once
 //!      ├─→ run_many → Runs: arrays of endings
 //!      ├─→ study → Table: rows of thousands of runs
 //!      └─→ modes, bands, resistance, sensitivities
@@ -15,12 +16,14 @@
 
 mod arrays;
 mod bands;
+mod batch;
 mod calibration;
 mod control_loop;
 mod convert;
 mod errors;
 mod load;
 mod many;
+mod members;
 mod modes;
 mod monitor;
 mod parcel;
@@ -45,6 +48,8 @@ use std::ffi::OsString;
 mod _gyration {
     #[pymodule_export]
     use super::bands::bands;
+    #[pymodule_export]
+    use super::batch::Batch;
     #[pymodule_export]
     use super::calibration::{Fit, calibrate};
     #[pymodule_export]

@@ -142,7 +142,7 @@ impl Sink for Last {
 }
 
 /// Stops when all are to stop.
-struct Together<'a>(&'a AtomicBool);
+pub struct Together<'a>(pub &'a AtomicBool);
 
 impl Monitor for Together<'_> {
     fn after_step(&mut self, _: &Progress) -> Option<Reason> {

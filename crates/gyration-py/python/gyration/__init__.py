@@ -12,6 +12,7 @@ Lengths are in m, masses in kg, times in s, forces in N, angles in rad. Vectors 
 :class:`Scene`       what to run: from a file, a dictionary or the gallery; edited by dotted key
 :class:`Recording`   what a run left: arrays, xarray, pandas, pictures, a 3-D view
 :class:`Simulation`  a run stepped by hand: look, apply forces, change drives
+:class:`Batch`       many of them at once, their states in one array a quantity
 :func:`run_many`     many scenes on all cores, and what they ended with
 :func:`study`        thousands of runs over parameters, into one table; on many machines
 :func:`modes`        rest states and the small motions about them, of bodies and of systems
@@ -33,6 +34,7 @@ from gyration._errors import (
     StudyError,
 )
 from gyration._gyration import (
+    Batch,
     Fit,
     Picture,
     Recording,
@@ -55,6 +57,7 @@ from gyration._study import study
 
 __all__ = [
     "ArgumentError",
+    "Batch",
     "Diagnostic",
     "Error",
     "FileError",
