@@ -21,6 +21,7 @@ mod calibration;
 mod control_loop;
 mod convert;
 mod errors;
+mod frames;
 mod load;
 mod many;
 mod members;

@@ -2,17 +2,17 @@
 
 use crate::convert::{array as numpy, object};
 use crate::errors;
+use crate::frames;
 use crate::picture::{Picture, PictureSource};
-use gyration_record::{Array, ArrayInfo, Recording as Inner};
+use gyration_record::{ArrayInfo, Recording as Inner};
 use gyration_sim::RunSummary;
 use gyration_sim::replay::ReplayError;
 use gyration_view::{Stored, report};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple, PyType};
+use pyo3::types::{PyBytes, PyDict, PyTuple, PyType};
 use serde_json::Value;
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tempfile::TempDir;
@@ -20,7 +20,7 @@ use tempfile::TempDir;
 /// A recording on disk, as it stood when it was opened.
 #[pyclass(frozen, module = "gyration", name = "Recording")]
 pub struct Recording {
-    inner: Inner,
+    pub inner: Inner,
     /// What the program said at the end of the run, if it was run here.
     told: Option<String>,
     /// Removes the folder when nobody needs it any more.
@@ -34,24 +34,24 @@ impl Recording {
     }
 
     /// The names of the bodies.
-    fn body_names(&self) -> PyResult<Vec<String>> {
+    pub fn body_names(&self) -> PyResult<Vec<String>> {
         Ok(self.inner.labels("body").map_err(errors::record)?.unwrap_or_default())
     }
 
     /// A whole array.
-    fn read<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    pub fn read<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let read = py.detach(|| self.inner.read(name)).map_err(errors::record)?;
         numpy(py, read.data, &read.shape)
     }
 
-    fn column<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    pub fn column<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let column = py.detach(|| self.inner.column(name)).map_err(errors::record)?;
         let rows = column.len();
         numpy(py, column, &[rows])
     }
 
     /// The arrays of numbers.
-    fn numbers(&self) -> impl Iterator<Item = &ArrayInfo> {
+    pub fn numbers(&self) -> impl Iterator<Item = &ArrayInfo> {
         // Labels have neither unit nor numbers.
         self.inner
             .arrays()
@@ -75,7 +75,7 @@ impl Recording {
         Picture::new(PictureSource::Recording { recording, kept, quantities, measures })
     }
 
-    fn no_such(&self, name: &str) -> PyErr {
+    pub fn no_such(&self, name: &str) -> PyErr {
         let columns: Vec<&str> = self.inner.columns().collect();
         let arrays: Vec<&str> = self.numbers().map(|array| array.name.as_str()).collect();
         PyKeyError::new_err(format!(
@@ -206,6 +206,17 @@ impl Recording {
         self.read(py, array)?.call_method1("take", (index, axis))
     }
 
+    fn _ipython_key_completions_(&self) -> PyResult<Vec<String>> {
+        let arrays: Vec<&ArrayInfo> = self.numbers().collect();
+        let of_bodies = arrays.iter().filter(|array| array.dims.iter().any(|dim| dim == "body"));
+        let bodies = self.body_names()?;
+        let of_body = of_bodies.flat_map(|array| bodies.iter().map(move |body| format!("{body}.{}", array.name)));
+        let names = self.columns().into_iter().chain(arrays.iter().map(|array| array.name.clone())).chain(of_body);
+        // Some arrays of one body are columns too.
+        let mut is_known = HashSet::new();
+        Ok(names.filter(|name| is_known.insert(name.clone())).collect())
+    }
+
     fn __contains__(&self, name: &str) -> PyResult<bool> {
         let known = name == "t" || self.inner.columns().any(|column| column == name);
         Ok(known || self.numbers().any(|array| array.name == name) || self.of_body(name)?.is_some())
@@ -213,40 +224,26 @@ impl Recording {
 
     /// The table as a DataFrame of pandas: the columns of the CSV.
     fn to_pandas<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let columns = PyDict::new(py);
-        columns.set_item("t", self.time(py)?)?;
-        // Each array is read once.
-        let mut read: HashMap<&str, Array> = HashMap::new();
-        for (name, array, place) in self.inner.column_places() {
-            let whole = match read.entry(array) {
-                Entry::Occupied(known) => known.into_mut(),
-                Entry::Vacant(new) => new.insert(py.detach(|| self.inner.read(array)).map_err(errors::record)?),
-            };
-            let stride = whole.shape.iter().skip(1).product();
-            let column: Vec<f64> = whole.data.iter().skip(place).step_by(stride).copied().collect();
-            let rows = column.len();
-            columns.set_item(name, numpy(py, column, &[rows])?)?;
-        }
-        py.import("pandas")?.call_method1("DataFrame", (columns,))
+        frames::pandas(py, self)
     }
 
-    /// All arrays as a Dataset of xarray, with dimensions, units and descriptions.
+    /// All arrays as a Dataset of xarray, with dimensions, units and descriptions; bodies have their names, and entries
+    /// of vectors and matrices the axes ``x``, ``y``, ``z``.
     fn to_xarray<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let (variables, coordinates) = (PyDict::new(py), PyDict::new(py));
-        for info in self.numbers() {
-            let attributes = PyDict::new(py);
-            attributes.set_item("units", &info.units)?;
-            attributes.set_item("description", &info.description)?;
-            let variable = (PyTuple::new(py, &info.dims)?, self.read(py, &info.name)?, attributes);
-            let into = if info.name == "time" { &coordinates } else { &variables };
-            into.set_item(&info.name, variable)?;
-        }
-        coordinates.set_item("body", (("body",), self.body_names()?))?;
-        let keywords = PyDict::new(py);
-        keywords.set_item("data_vars", variables)?;
-        keywords.set_item("coords", coordinates)?;
-        keywords.set_item("attrs", self.attrs(py)?)?;
-        py.import("xarray")?.call_method("Dataset", (), Some(&keywords))
+        frames::xarray(py, self)
+    }
+
+    /// Draws columns over time with Matplotlib, into ``ax`` or the axes at hand; returns the axes. ``style`` are
+    /// keywords of ``Axes.plot``. Raises ``KeyError`` for a column that the recording does not have.
+    #[pyo3(signature = (*columns, ax=None, **style))]
+    fn draw<'py>(
+        &self,
+        py: Python<'py>,
+        columns: Vec<String>,
+        ax: Option<Bound<'py, PyAny>>,
+        style: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        frames::draw(py, self, &columns, ax, style)
     }
 
     /// A picture of quantities by name: ``overview``, ``strip``, ``motion``, ``height``, ``gap``, ``stretch``,
@@ -274,16 +271,32 @@ impl Recording {
         Ok(path)
     }
 
-    /// The 3-D view in a frame; the overview where the package was built without the page.
-    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
-        match self.page(py) {
-            Ok(html) => {
-                let quoted = html.replace('&', "&amp;").replace('"', "&quot;");
-                let style = "width: 100%; height: 600px; border: 0";
-                Ok(format!("<iframe style=\"{style}\" srcdoc=\"{quoted}\"></iframe>"))
-            }
-            Err(_) => Ok(self.picture(Vec::new(), Vec::new())?.svg().to_owned()),
+    /// Shows the 3-D view: in a notebook in a frame, else in the browser. Raises ``PlotError`` where the package was
+    /// built without the page.
+    fn show(&self, py: Python<'_>) -> PyResult<()> {
+        let html = self.page(py)?;
+        let shell = py.import("sys")?.getattr("modules")?.call_method1("get", ("IPython",))?;
+        let is_notebook = !shell.is_none() && shell.call_method0("get_ipython")?.hasattr("kernel")?;
+        if is_notebook {
+            let quoted = html.replace('&', "&amp;").replace('"', "&quot;");
+            let style = "width: 100%; height: 600px; border: 0";
+            let display = py.import("IPython.display")?;
+            let frame =
+                display.call_method1("HTML", (format!("<iframe style=\"{style}\" srcdoc=\"{quoted}\"></iframe>"),))?;
+            return display.call_method1("display", (frame,)).map(drop);
         }
+        // The browser reads it when it likes: it stays.
+        let folder = py.import("tempfile")?.call_method1("mkdtemp", ("", "gyration-"))?;
+        let path = py.import("pathlib")?.call_method1("Path", (folder, "report.html"))?;
+        path.call_method1("write_bytes", (PyBytes::new(py, html.as_bytes()),))?;
+        py.import("webbrowser")?.call_method1("open", (path.call_method0("as_uri")?,)).map(drop)
+    }
+
+    /// Heights over time, and how to see the 3-D view: a notebook keeps what it has shown, and a page weighs a
+    /// megabyte.
+    fn _repr_html_(&self) -> PyResult<String> {
+        let heights = self.picture(vec!["height".to_owned()], Vec::new())?;
+        Ok(format!("{}<p>The 3-D view: <code>recording.show()</code></p>", heights.svg()))
     }
 
     /// For pickle: another process opens what is on disk.

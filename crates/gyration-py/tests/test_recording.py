@@ -1,6 +1,7 @@
 """Recordings: arrays, tables, pictures, pages; runs that are watched, interrupted and resumed."""
 
 import os
+import pathlib
 import pickle
 import re
 import signal
@@ -8,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+import urllib.request
 
 import numpy as np
 import pytest
@@ -48,7 +50,34 @@ def test_xarray_has_dimensions_and_units(recording):
     dataset = recording.to_xarray()
     assert dataset.position.dims == ("time", "body", "row")
     assert dataset.position.units == "m" and list(dataset.body.values) == ["ball"]
-    assert float(dataset.position.sel(body="ball").isel(time=-1, row=2)) == recording["ball.z"][-1]
+    assert float(dataset.position.sel(body="ball", row="z").isel(time=-1)) == recording["ball.z"][-1]
+    assert float(dataset.placement_gradient.sel(body="ball", row="x", col="z")[-1]) == recording["ball.P_xz"][-1]
+
+
+def test_columns_are_drawn_into_axes_of_matplotlib(recording):
+    matplotlib = pytest.importorskip("matplotlib", reason="Matplotlib is not installed: pip install gyration[matplotlib]")
+    matplotlib.use("agg")
+    from matplotlib.figure import Figure
+
+    axes = Figure().subplots()
+    assert recording.draw("ball.z", ax=axes, color="red") is axes
+    (line,) = axes.lines
+    np.testing.assert_array_equal(line.get_xydata(), np.stack([recording.time, recording["ball.z"]], axis=1))
+    assert axes.get_ylabel() == "ball.z [m]" and line.get_color() == "red"
+    with pytest.raises(KeyError, match="ball.vz"):
+        recording.draw("ball.speed", ax=axes)
+    assert len(axes.lines) == 1
+
+
+def test_keys_are_completed(recording, ball):
+    simulation = gyration.Simulation(ball)
+    for one in [recording, simulation, ball]:
+        keys = one._ipython_key_completions_()
+        assert len(keys) == len(set(keys)) > 5
+        for key in keys:
+            one[key]
+    assert {"t", "ball.z", "position", "ball.position"} <= set(recording._ipython_key_completions_())
+    assert "body.ball.velocity" in ball._ipython_key_completions_()
 
 
 def test_events_are_in_order_of_time(recording):
@@ -121,9 +150,15 @@ def test_the_summary_of_a_recording_whose_mesh_is_gone_says_what_is_missing(tmp_
     assert read.startswith("completed\nthe rest cannot be told") and "corner.obj" in read
 
 
-def test_a_notebook_shows_the_view(recording):
+def test_a_notebook_keeps_little_and_the_view_is_shown_when_it_is_asked_for(recording, monkeypatch):
     shown = recording._repr_html_()
-    assert shown.startswith("<iframe") or "<svg" in shown
+    assert shown.startswith("<svg") and "recording.show()" in shown and len(shown) < 60_000
+    opened = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    recording.show()
+    (address,) = opened
+    with urllib.request.urlopen(address) as page:
+        assert page.read() == recording.report(pathlib.Path(urllib.request.url2pathname(address[7:]))).read_bytes()
 
 
 def test_recording_with_output_leaves_the_bytes_of_the_program(ball, tmp_path):
