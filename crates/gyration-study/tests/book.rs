@@ -1,8 +1,8 @@
 //! Blocks of TOML in the pages of the book: scenes, studies and calibrations that are whole, and parts of them.
 //!
-//! A whole file is read as the program reads it. Parts are marked behind the language: `toml part`, `toml part of body`,
-//! `toml part of contact`, `toml part of study`. They are read with what they need around them: what a part alone
-//! cannot tell may be missing, but no key is unknown and no value of a wrong kind.
+//! A whole file is read as the program reads it. Parts are marked behind the language: `toml part`, `toml part of
+//! body`, `toml part of contact`, `toml part of study`. They are read with what they need around them: what a part
+//! alone cannot tell may be missing, but no key is unknown and no value of a wrong kind.
 
 use gyration_scene::{ErrorKind, Scene, SceneError};
 use gyration_study::Study;

@@ -10,7 +10,8 @@
 //!
 //!   ν α(d₀, ν)/d₀ = M/h,
 //!
-//! which gives d₀, or ν where d₀ is said. Damping c = β/α of the same exponent lets a flat impact at v₀ return with e v₀,
+//! which gives d₀, or ν where d₀ is said. Damping c = β/α of the same exponent lets a flat impact at v₀ return with e
+//! v₀,
 //!
 //!   x − ln(1 + x) = −y − ln(1 − y),   x = c v₀,   y = e x,
 //!
