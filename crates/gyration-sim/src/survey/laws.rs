@@ -98,7 +98,7 @@ impl LawSurvey {
             None => self.strength.as_ref().map(viscous).unwrap_or_default(),
             Some(mu) => {
                 let creep = self.strength.map(|c| creeps(mu, c)).unwrap_or_default();
-                format!("; holds up to {mu} of the force of the repulsion{creep}")
+                format!("; holds up to {} of the force of the repulsion{creep}", significant(mu, 5))
             }
         }
     }
