@@ -17,7 +17,8 @@ fn on_a_table(gravity: [f64; 3], end: f64, contact: &str, body: &str) -> Experim
 #[test]
 fn bodies_come_to_rest_at_the_gap_that_is_said() {
     let case = |name| Case { row: None, name, source: "α = m g/F₁(d₀)" };
-    let contact = "from = { rest_gap = \"0.2 mm\", restitution = 0.2, at_speed = \"10 cm/s\", friction_angle = 0.4, sliding_speed = 1e-3 }";
+    let contact = "from = { rest_gap = \"0.2 mm\", restitution = 0.2, at_speed = \"10 cm/s\", friction_angle = 0.4, \
+                   sliding_speed = 1e-3 }";
     let ball = "shape = { sphere = { radius = 0.05 } }\nmass = 0.3\nposition = [0, 0, 0.051]";
     let run = on_a_table([0.0, 0.0, -GRAVITY], 3.0, contact, ball).run();
     case("ball dropped on `from = { rest_gap }`").check("gap at rest [m]", 2e-4, run.column("body.gap")[1], 1e-9);
@@ -48,7 +49,8 @@ fn a_block_creeps_as_the_sliding_speed_says() {
     let (mu, speed) = (0.5_f64, 0.003);
     let slope = (mu * 0.5_f64.sqrt()).atan();
     let contact = format!(
-        "from = {{ rest_gap = 1e-4, restitution = 0.1, at_speed = 1, friction_angle = {:?}, sliding_speed = {speed:?} }}",
+        "from = {{ rest_gap = 1e-4, restitution = 0.1, at_speed = 1, friction_angle = {:?}, \
+         sliding_speed = {speed:?} }}",
         mu.atan()
     );
     let body = "shape = { box = { size = [0.1, 0.1, 0.02] } }\nmass = 0.5\nposition = [0, 0, 0.0101]";

@@ -157,7 +157,7 @@ fn what_bands_cannot_do_is_refused() {
         (&["string.toml", "--strain", "xx=0..0.1"], "one value of each component"),
         (&["string.toml", "--along", "xx=0..0.1", "--steps", "1"], "--steps 2"),
         (&["string.toml", "--omega", "0..3"], "--complex"),
-        (&["string.toml", "--plot", "bands.gif"], ""),
+        (&["string.toml", "--plot", "bands.bmp"], ""),
     ] {
         let said = sandbox.refused(2, &[&["bands"][..], arguments].concat());
         assert!(said.stderr.contains(word), "{arguments:?}: {}", said.stderr);

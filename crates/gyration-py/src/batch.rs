@@ -1,7 +1,7 @@
 //! `Batch`: many simulations of one scene side by side, stepped on a pool of threads, with their states in one array a
 //! quantity.
 //!
-//! Members know nothing of each other: each is a [`SteppedRun`](gyration_sim::SteppedRun) of its own, so that nothing
+//! Members know nothing of each other: each is a [`SteppedRun`] of its own, so that nothing
 //! depends on the number of threads, and a member that cannot go on leaves the others alone.
 
 use crate::arrays::{Arrays, StateNumbers};

@@ -1,5 +1,9 @@
 """Stepping by hand: the state as arrays, applied loads, drives, control loops."""
 
+import shutil
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -162,3 +166,32 @@ def test_a_run_that_cannot_go_on_says_why_and_stays_where_it_is():
         simulation.advance(1.0)
     assert caught.value.reason == "gap_closed" and caught.value.body == "ball"
     assert abs(caught.value.time - simulation.time) < 1e-6
+
+FLUSHING = """
+import ctypes, sys
+ctypes.CDLL(sys.argv[1])
+if sys.float_info.min * 0.5 != 0.0:
+    sys.exit("not set")
+import gyration
+for begin in (lambda: gyration.Simulation("dice"), lambda: gyration.Scene.gallery("dice").run()):
+    try:
+        begin()
+    except gyration.RunError as error:
+        assert "rounds the smallest numbers to zero" in str(error), error
+    else:
+        sys.exit("it ran")
+"""
+
+
+def test_a_thread_that_flushes_the_smallest_numbers_to_zero_is_refused(tmp_path):
+    """With such a mode, which libraries set for speed, the first step would never end."""
+    compiler = shutil.which("cc")
+    if compiler is None:
+        pytest.skip("no C compiler, whose start-up code sets the mode")
+    library = tmp_path / "fast.so"
+    (tmp_path / "fast.c").write_text("int nothing;\n")
+    subprocess.run([compiler, "-shared", "-fPIC", "-ffast-math", "-o", library, tmp_path / "fast.c"], check=True)
+    ended = subprocess.run([sys.executable, "-c", FLUSHING, library], capture_output=True, text=True, timeout=100)
+    if ended.stderr.strip() == "not set":
+        pytest.skip("this compiler's start-up code does not set the mode")
+    assert ended.returncode == 0, ended.stderr

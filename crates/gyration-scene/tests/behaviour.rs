@@ -7,7 +7,8 @@ use std::path::Path;
 /// A cube of side 0.1 m and 2 kg over a table, both of a contact with these lines.
 fn scene(lines: &str) -> String {
     format!(
-        "{TIME}[world]\ngravity = [0, 0, -10]\n{TABLE}[[body]]\nname = \"cube\"\nshape = {{ box = {{ size = [0.1, 0.1, 0.1] }} }}\n\
+        "{TIME}[world]\ngravity = [0, 0, -10]\n{TABLE}\
+         [[body]]\nname = \"cube\"\nshape = {{ box = {{ size = [0.1, 0.1, 0.1] }} }}\n\
          mass = 2\nposition = [0, 0, 1]\norientation = {{ axis_angle = {{ axis = [1, 2, 3], angle = 1 }} }}\n\
          [[contact]]\nsupport = \"table\"\n{lines}\n"
     )

@@ -87,7 +87,7 @@ fn example(fence: &str) -> &'static str {
 
 #[test]
 fn the_examples_of_the_scene_reference_are_taken() {
-    let scene = Scene::parse("a.toml", &format!("{TIME}{BALL}{}", example("```toml\n")), "".as_ref(), &[]);
+    let scene = Scene::parse("a.toml", &format!("{TIME}{BALL}{}", example("```toml part of body\n")), "".as_ref(), &[]);
     assert!(scene.is_ok(), "{:?}", scene.err().map(|errors| errors.to_string()));
     let table = "contraction_viscosity = 1, drive = { table = { file = \"q.csv\" } }";
     let scene = beside_table(example("```csv\n"), table);

@@ -106,6 +106,13 @@ pub enum RunError {
     /// It was given up before its first step.
     #[error("{}, before its first step{}", .0.what, fix_of(.0))]
     Interrupted(Stop),
+    /// The thread flushes the smallest numbers to zero, with which steps have other bytes and the first never ends.
+    #[error(
+        "this thread rounds the smallest numbers to zero, a mode of the processor that a library has set: runs would not \
+         be what they are elsewhere\n  fix: run in a thread or process that was begun before, or reset the mode, as by \
+         torch.set_flush_denormal(False)"
+    )]
+    Flushing,
     /// The recording failed.
     #[error(transparent)]
     Record(#[from] RecordError),

@@ -3,7 +3,7 @@
 mod phonopy;
 mod special;
 
-use super::plot;
+use super::picture;
 use crate::arguments::Bands;
 use crate::error::{CliError, code};
 use crate::input::at_rest;
@@ -52,8 +52,8 @@ pub fn execute(arguments: &Bands) -> Result<u8, CliError> {
 /// The picture and the file for other programs.
 fn write_files(arguments: &Bands, scene: &Scene, found: &BandSurvey) -> Result<(), CliError> {
     if let Some(path) = &arguments.plot {
-        let format = plot::format(Some(path))?;
-        plot::write(&gyration_plot::bands(scene.title(), found), Some(path), format, PathBuf::new)?;
+        let format = picture::format(Some(path))?;
+        picture::write(&gyration_plot::bands(scene.title(), found), Some(path), format, PathBuf::new)?;
     }
     if let Some(path) = &arguments.yaml {
         let cell = unit_cell(scene).map_err(refused)?;

@@ -1,6 +1,6 @@
 //! `gyration calibrate`: numbers of a scene from measurements, with their errors, and a drawing of the fit.
 
-use super::plot::{format, write};
+use super::picture::{format, write};
 use crate::arguments::Calibrate;
 use crate::error::CliError;
 use crate::input::stem;

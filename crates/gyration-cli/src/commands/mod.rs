@@ -10,6 +10,7 @@ mod import;
 mod man;
 mod modes;
 mod new;
+mod picture;
 mod plot;
 #[cfg(feature = "view")]
 mod report;

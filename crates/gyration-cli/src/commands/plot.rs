@@ -1,11 +1,11 @@
 //! `gyration plot`: pictures of a recording, or of the contact laws of a scene.
 
+use super::picture::{format, write};
 use crate::arguments::Plot;
-use crate::error::{CliError, code};
+use crate::error::CliError;
 use crate::input::stem;
-use crate::output;
-use gyration_plot::{Figure, Format, PlotQuantity};
-use gyration_record::{Recording, write_file};
+use gyration_plot::{Figure, PlotQuantity};
+use gyration_record::Recording;
 use gyration_scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -26,32 +26,6 @@ pub fn execute(arguments: &Plot) -> Result<u8, CliError> {
     let is_recording = Path::new(&arguments.source).is_dir();
     let (figure, name) = if is_recording { of_recording(arguments)? } else { of_scene(arguments)? };
     write(&figure, output, format, || PathBuf::from(format!("{name}.svg")))
-}
-
-/// The format that the ending of the file asks for; SVG for stdout and without a file.
-pub fn format(output: Option<&Path>) -> Result<Format, CliError> {
-    match output.filter(|path| *path != Path::new("-")) {
-        Some(path) => Ok(Format::of_path(path)?),
-        None => Ok(Format::Svg),
-    }
-}
-
-/// Writes a picture to stdout, to a file, or to the file that it is called without one.
-pub fn write(
-    figure: &Figure,
-    output: Option<&Path>,
-    format: Format,
-    default: impl FnOnce() -> PathBuf,
-) -> Result<u8, CliError> {
-    let bytes = figure.render(format);
-    if output == Some(Path::new("-")) {
-        output::print(&String::from_utf8_lossy(&bytes))?;
-        return Ok(code::DONE);
-    }
-    let path = output.map_or_else(default, Path::to_path_buf);
-    write_file(&path, &bytes)?;
-    output::say(&format!("wrote {}", path.display()));
-    Ok(code::DONE)
 }
 
 /// Whether a path is that of the table of a study.

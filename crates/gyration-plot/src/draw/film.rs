@@ -17,7 +17,7 @@ const STAYS: f64 = 1.0;
 /// Pictures that follow one another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
-    /// Width and height [pixels], even.
+    /// Width and height in pixels, even.
     size: [u32; 2],
     frames: Vec<Vec<Mark>>,
     /// How long each stays [s].
@@ -50,7 +50,7 @@ impl Film {
         Self { size: [even(page.width), even(page.height)], frames, stays }
     }
 
-    /// Width and height [pixels].
+    /// Width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }

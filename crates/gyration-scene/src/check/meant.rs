@@ -9,7 +9,7 @@ const MEANT: [(&[&str], &[&str], &str); 6] = [
     (
         &["rotation", "angle", "angles", "attitude"],
         &["body", "support"],
-        "`orientation` says how it stands, `angular_velocity` how a body turns, `motion = { rotate = … }` how a support does",
+        "`orientation` says how it stands; `angular_velocity`, of a support `motion = { rotate = … }`, how it turns",
     ),
     (
         &["thickness", "width", "depth"],
@@ -19,7 +19,7 @@ const MEANT: [(&[&str], &[&str], &str); 6] = [
     (
         &["young", "youngs_modulus", "modulus", "elastic_modulus", "E", "stiffness", "poisson", "poissons_ratio"],
         &["body"],
-        "it is a number of a material: `affine = { material = { neo_hookean = { youngs_modulus = …, poissons_ratio = … } } }`",
+        "it is of a material: `affine = { material = { neo_hookean = { youngs_modulus = …, poissons_ratio = … } } }`",
     ),
     (
         &["restitution", "bounciness", "friction", "mu", "repulsion", "damping", "adhesion"],

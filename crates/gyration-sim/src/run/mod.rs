@@ -140,6 +140,9 @@ impl Simulation {
         checkpoint: &[u8],
         change: impl FnOnce(&mut Self),
     ) -> Result<Self, RunError> {
+        if flushes() {
+            return Err(RunError::Flushing);
+        }
         let unfit = RunError::unfit_checkpoint;
         let (state, memories) = RunState::restore(checkpoint).ok_or_else(unfit)?;
         let members: Vec<Vec<usize>> = memories.iter().map(|memory| memory.members.clone()).collect();
@@ -234,8 +237,11 @@ impl Simulation {
     /// Records the row t = 0.
     ///
     /// # Errors
-    /// [`RunError`] if the start is outside the model or the row cannot be stored.
+    /// [`RunError`] if the start is outside the model, the row cannot be stored, or the thread flushes numbers to zero.
     pub fn begin(&mut self, sink: &mut dyn Sink) -> Result<(), RunError> {
+        if flushes() {
+            return Err(RunError::Flushing);
+        }
         self.sample(self.state.time);
         if let Err(stop) = self.record(sink)? {
             return Err(RunError::at_start(stop));
@@ -314,6 +320,11 @@ impl Simulation {
         }
         Ok(Outcome::Stopped(stop))
     }
+}
+
+/// Whether this thread rounds what is below the normal numbers to zero.
+fn flushes() -> bool {
+    std::hint::black_box(f64::MIN_POSITIVE) * std::hint::black_box(0.5) == 0.0
 }
 
 /// Whether somebody wanted the stop, who may let the run go on.

@@ -1,7 +1,7 @@
 //! `gyration study STUDY plot`: the picture of a table.
 
 use crate::arguments::{StudyArguments, StudyPlot};
-use crate::commands::plot::{format, write};
+use crate::commands::picture::{format, write};
 use crate::error::CliError;
 use gyration_plot::study::{PlotKind, PlotRequest, of_table};
 use gyration_study::{DataFrame, Study};
