@@ -1,8 +1,8 @@
 //! `Batch`: many simulations of one scene side by side, stepped on a pool of threads, with their states in one array a
 //! quantity.
 //!
-//! Members know nothing of each other: each is a [`SteppedRun`] of its own, so that nothing
-//! depends on the number of threads, and a member that cannot go on leaves the others alone.
+//! Members know nothing of each other: each is a [`SteppedRun`] of its own, so that nothing depends on the number of
+//! threads, and a member that cannot go on leaves the others alone.
 
 use crate::arrays::{Arrays, StateNumbers};
 use crate::convert::{array, numbers_of_members};
