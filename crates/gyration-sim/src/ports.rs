@@ -108,8 +108,8 @@ pub enum RunError {
     Interrupted(Stop),
     /// The thread flushes the smallest numbers to zero, with which steps have other bytes and the first never ends.
     #[error(
-        "this thread rounds the smallest numbers to zero, a mode of the processor that a library has set: runs would not \
-         be what they are elsewhere\n  fix: run in a thread or process that was begun before, or reset the mode, as by \
+        "this thread rounds the smallest numbers to zero, a mode of the processor that a library has set: runs would \
+         not be what they are elsewhere\n  fix: run in a thread or process that was begun before, or reset the mode, as by \
          torch.set_flush_denormal(False)"
     )]
     Flushing,
