@@ -21,7 +21,6 @@ mod calibration;
 mod control_loop;
 mod convert;
 mod errors;
-mod frames;
 mod load;
 mod many;
 mod members;

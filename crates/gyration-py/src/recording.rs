@@ -1,8 +1,9 @@
 //! `Recording`: what a run left on disk, as arrays of NumPy, xarray and pandas, as pictures and as a page.
 
+mod frames;
+
 use crate::convert::{array as numpy, object};
 use crate::errors;
-use crate::frames;
 use crate::picture::{Picture, PictureSource};
 use gyration_record::{ArrayInfo, Recording as Inner};
 use gyration_sim::RunSummary;

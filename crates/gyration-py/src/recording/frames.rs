@@ -1,8 +1,8 @@
 //! Recordings as pandas, xarray and Matplotlib have them.
 
+use super::Recording;
 use crate::convert::{array, object};
 use crate::errors;
-use crate::recording::Recording;
 use gyration_record::Array;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
