@@ -16,6 +16,7 @@ mod errors;
 mod joints;
 mod keeps;
 mod lattice_errors;
+mod meant;
 mod meetings;
 mod own_forces;
 mod robust;

@@ -1,4 +1,4 @@
-//! Pages of Markdown as their links, headings and blocks of code: no parser of the whole language.
+//! Pages of Markdown as their links and headings: no parser of the whole language.
 //!
 //! Code is left out: what stands between fences, what is indented by four, what stands between backticks of one line.
 
@@ -15,18 +15,6 @@ pub struct Link {
     pub whole: Range<usize>,
     /// Its target, without parentheses.
     pub target: Range<usize>,
-}
-
-/// A block of code between fences.
-#[cfg(test)]
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Block {
-    /// Line of the first fence, from one.
-    pub line: usize,
-    /// The language, and what else stands behind the fence.
-    pub language: String,
-    /// The code.
-    pub text: String,
 }
 
 /// The lines outside code, with their number and the place at which each begins.
@@ -107,31 +95,6 @@ fn slug(heading: &str) -> String {
     kept.flat_map(char::to_lowercase).map(|c| if c == ' ' { '-' } else { c }).collect()
 }
 
-/// The blocks of code between fences, without the indentation of the first fence.
-#[cfg(test)]
-pub fn blocks(text: &str) -> Vec<Block> {
-    let mut blocks: Vec<Block> = Vec::new();
-    let mut indentation = None;
-    for (number, line) in text.lines().enumerate() {
-        let bare = line.trim_start();
-        match (bare.strip_prefix("```"), indentation) {
-            (Some(language), None) => {
-                indentation = Some(line.len() - bare.len());
-                blocks.push(Block { line: number + 1, language: language.trim().to_owned(), text: String::new() });
-            }
-            (Some(_), Some(_)) => indentation = None,
-            (None, Some(width)) => {
-                if let Some(block) = blocks.last_mut() {
-                    block.text.push_str(line.get(width..).unwrap_or(""));
-                    block.text.push('\n');
-                }
-            }
-            (None, None) => {}
-        }
-    }
-    blocks
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -150,14 +113,5 @@ mod tests {
     fn headings_have_the_marks_of_forges() {
         let text = "# What a heap costs\n## `dice`\n## `dice`\n### T, P (q)\n```\n# no\n```\n";
         assert_eq!(anchors(text), ["dice", "dice-1", "t-p-q", "what-a-heap-costs"].map(String::from).into());
-    }
-
-    #[test]
-    fn blocks_are_found_with_their_language() {
-        let found = blocks("a\n```toml\nx = 1\n```\n- b\n  ```\n  y\n   z\n  ```\n");
-        let texts: Vec<(&str, &str)> =
-            found.iter().map(|block| (block.language.as_str(), block.text.as_str())).collect();
-        assert_eq!(texts, [("toml", "x = 1\n"), ("", "y\n z\n")]);
-        assert_eq!(found[1].line, 6);
     }
 }
