@@ -3,7 +3,7 @@
 use crate::assemble::{Built, WaveStart};
 use crate::document::Diagnostics;
 use crate::error::{ErrorKind, NotToml, SceneErrors};
-use crate::file::{LatticeWave, OneOrMany, SceneFile};
+use crate::file::{Behaviour, LatticeWave, OneOrMany, SceneFile};
 use crate::key::Key;
 use crate::overriding::Override;
 use crate::units::without_rounding;
@@ -25,6 +25,8 @@ pub struct Scene {
     pub(crate) base: PathBuf,
     pub(crate) overrides: Vec<Override>,
     pub(crate) file: SceneFile,
+    /// What contacts of these indices do, instead of laws.
+    pub(crate) behaviours: Vec<(usize, Behaviour)>,
     pub(crate) built: Built,
     pub(crate) unknown: Option<Box<Unknown>>,
 }
@@ -70,6 +72,17 @@ impl Scene {
     pub fn resolved(&self) -> Value {
         // The file's types hold strings, finite numbers, arrays and tables only, all of which JSON has.
         serde_json::to_value(&self.file).unwrap_or_default()
+    }
+
+    /// Every number that can be set: the resolved form, with what contacts do beside the laws that follow from it.
+    ///
+    /// It is no scene: a law and what it follows from exclude one another.
+    pub fn numbers(&self) -> Value {
+        let mut all = self.resolved();
+        for (contact, behaviour) in &self.behaviours {
+            all["contact"][contact]["from"] = serde_json::to_value(behaviour.with_exponent()).unwrap_or_default();
+        }
+        all
     }
 
     /// The resolved form in TOML, for people: without what a change of units has left in the last digit of a number.

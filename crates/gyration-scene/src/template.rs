@@ -4,9 +4,10 @@
 //! scene thousands of times, each with other numbers.
 
 use crate::assemble::{SceneContext, assemble, salvage};
-use crate::check::{PartialScene, RULES, Reporter, structure, values};
+use crate::check::{PartialScene, Placed, RULES, Reporter, structure, values};
 use crate::document::{Diagnostics, Document};
 use crate::error::{ErrorKind, LoadError, ReadError, SceneErrors};
+use crate::file::Contact;
 use crate::gallery;
 use crate::key::name_of;
 use crate::overriding::Override;
@@ -97,6 +98,8 @@ impl Template {
         values(&partial, &mut reporter);
         let constants = partial.constants.clone();
         let context = SceneContext::new(&partial, &document, &self.base, constants.as_ref());
+        let said = |(index, contact): (usize, &Placed<Contact>)| Some((index, contact.value.from?));
+        let behaviours = partial.contacts.iter().enumerate().filter_map(said).collect();
         let built = assemble(&mut partial, &context, &mut reporter);
         salvage(&document, &context, &mut diagnostics);
         match (partial.complete(), built) {
@@ -104,7 +107,7 @@ impl Template {
                 let (name, text, base) = (self.stem.clone(), self.text().to_owned(), self.base.clone());
                 let unknown = (!forms.is_empty() || built.waves.is_some())
                     .then(|| Box::new(Unknown { forms, document: document.into_owned() }));
-                Ok(Scene { name, text, base, overrides: overrides.to_vec(), file, built, unknown })
+                Ok(Scene { name, text, base, overrides: overrides.to_vec(), file, behaviours, built, unknown })
             }
             _ => Err(document.errors(diagnostics)),
         }

@@ -475,3 +475,21 @@ fn search_that_is_given_up_anywhere_is_no_fit() {
     println!("{given_up} times given up");
     assert!(given_up > 3, "{given_up}");
 }
+
+#[test]
+fn what_is_said_of_a_contact_is_fitted_as_a_law_is() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let laws = BALL.find("repulsion").unwrap()..BALL.find("[[body]]").unwrap();
+    let mut scene = BALL.to_owned();
+    scene.replace_range(laws, "from = { rest_gap = \"0.2 mm\" }\n");
+    std::fs::write(folder.path().join("said.toml"), scene).unwrap();
+    let text = "scene = \"said.toml\"\n[fit.gap]\nkey = \"contact.0.from.rest_gap\"\n[[gap]]\ngap = [\"0.31 mm\"]\n\
+                deviation = \"1 um\"\n";
+    let found = Calibration::parse("data.toml", text, folder.path()).unwrap().fit().unwrap();
+    println!("gap = {:e}", found.numbers[0].value);
+    assert!((found.numbers[0].value / 0.31e-3 - 1.0).abs() < 1e-7);
+    let follows = text.replace("from.rest_gap", "repulsion.alpha");
+    let refusal = Calibration::parse("data.toml", &follows, folder.path()).unwrap_err().to_string();
+    assert!(refusal.contains("`repulsion` of this contact follows from its `from`"), "{refusal}");
+    assert!(refusal.contains("fit one of contact.0.from.nu, contact.0.from.rest_gap"), "{refusal}");
+}

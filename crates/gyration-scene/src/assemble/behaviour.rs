@@ -20,7 +20,7 @@
 use super::body::AssembledBody;
 use super::partners::{Names, Partners};
 use crate::check::{PartialScene, Placed, Reporter};
-use crate::file::{Behaviour, Contact, Damping, Friction, Layer, Repulsion};
+use crate::file::{Behaviour, Contact, Damping, EXPONENT, Friction, Layer, Repulsion};
 use crate::key::Key;
 use crate::quantity::{Length, NonNegative, Positive, Pressure, SurfaceDamping, si};
 use crate::units::shown;
@@ -32,9 +32,6 @@ use gyration::tensor::{Mat3, Vec3};
 use std::collections::HashSet;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
-
-/// ν where nothing says it: it stops every shape.
-const EXPONENT: f64 = 6.0;
 
 /// Exponents among which that of a layer is sought.
 const EXPONENTS: [f64; 2] = [2.0, 200.0];

@@ -31,6 +31,17 @@ pub struct Behaviour {
     pub sliding_speed: Option<Positive<Velocity>>,
 }
 
+/// ν where nothing says it: it stops every shape.
+pub(crate) const EXPONENT: f64 = 6.0;
+
+impl Behaviour {
+    /// The same with the exponent that it has where none is written.
+    pub(crate) fn with_exponent(self) -> Self {
+        let is_free = self.rest_gap.is_some() != self.layer.is_some();
+        Self { nu: self.nu.or(is_free.then_some(Positive(EXPONENT))), ..self }
+    }
+}
+
 /// A thin elastic layer between wide faces.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -27,6 +27,7 @@ mod time;
 mod world;
 
 pub use affine::{Affine, Couple, Entry, Frame, Gyroscopic, InternalFriction, LinearFriction};
+pub(crate) use behaviour::EXPONENT;
 pub use behaviour::{Behaviour, Layer};
 pub use body::{Body, MassProperties, PointForce, Rigid, Spring};
 pub use bond::{Bond, BondDamping};

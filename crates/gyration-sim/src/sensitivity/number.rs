@@ -36,9 +36,9 @@ impl SceneNumber {
     /// # Errors
     /// `SensitivityError::Key` if there is no number at this key.
     pub fn find(scene: &Scene, key: &str) -> Result<Self, SensitivityError> {
-        let resolved = scene.resolved();
+        let numbers = scene.numbers();
         let fault = |message: String, help: String| SensitivityError::Key { key: key.to_owned(), message, help };
-        let mut at = &resolved;
+        let mut at = &numbers;
         let mut array: Option<(String, Value)> = None;
         let (mut walked, mut inside): (Vec<&str>, Vec<usize>) = (Vec::new(), Vec::new());
         for word in key.split('.').map(str::trim) {

@@ -174,3 +174,47 @@ fn a_small_oscillation_changes_its_phase_with_stiffness_and_its_height_with_visc
         close(key, derivatives.at_end().unwrap()[0], expected, 1e-4);
     }
 }
+
+/// v = −e v₀ behind a flat impact, without gravity; `restitution` and `at_speed` are no numbers of the resolved scene.
+#[test]
+fn the_speed_after_an_impact_changes_with_what_is_said_of_the_contact() {
+    let text = r#"
+        time = { end = 0.5, sample = 0.1 }
+        world = { gravity = [0, 0, 0] }
+        [[support]]
+        name = "table"
+        plane = {}
+        [[contact]]
+        support = "table"
+        repulsion = { alpha = 800, nu = 6, d0 = "1 mm" }
+        from = { restitution = 0.7, at_speed = "2 m/s" }
+        [[body]]
+        name = "box"
+        shape = { box = { size = [0.1, 0.1, 0.1] } }
+        density = 1000
+        position = [0, 0, 0.4]
+        velocity = [0, 0, -2]
+    "#;
+    let keys = ["contact.0.from.restitution", "contact.0.from.at_speed"];
+    let found = at_end(&scene(text, &[]), &keys, &["box.vz"]);
+    // Damping is c = x/v₀, where x − ln(1 + x) = −y − ln(1 − y) with y = e x: at the same speed of approach it
+    // changes by c/v₀, and x dx/(1 + x) = y dy/(1 − y).
+    let (v, e) = (2.0, 0.7);
+    close("speed", found.values[0][0], e * v, 1e-7);
+    close("by restitution", found.derivatives[0].at_end().unwrap()[0], v, 1e-6);
+    let x = impact_number(e);
+    let y = e * x;
+    // v₁ = y/c as c changes by −c/v₀ per unit of `at_speed`.
+    let by_c = (x / (1.0 + x)) * ((1.0 - y) / y) * x - y;
+    close("by its speed", found.derivatives[1].at_end().unwrap()[0], -by_c / x, 1e-6);
+}
+
+/// x of a restitution, by halving.
+fn impact_number(e: f64) -> f64 {
+    let (mut low, mut high): (f64, f64) = (1e-9, 1.0 / e);
+    for _ in 0..200 {
+        let x = 0.5 * (low + high);
+        if x - x.ln_1p() + e * x + (-e * x).ln_1p() > 0.0 { low = x } else { high = x }
+    }
+    low
+}

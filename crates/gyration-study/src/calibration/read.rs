@@ -48,6 +48,9 @@ impl Calibration {
             input.note(&["fit"], "there is no number to find", "write [fit.alpha] with its `key`");
         }
         let numbers: Vec<_> = names.iter().filter_map(|name| number(&mut input, name, resolved.as_ref())).collect();
+        if let (Some(template), Some(resolved)) = (&template, &resolved) {
+            numbers.iter().for_each(|number| is_written(&mut input, number, template, &settings, resolved));
+        }
         if let Some(template) = &template {
             keys_once(&mut input, &numbers, template);
         }
@@ -83,10 +86,10 @@ fn settings(input: &InputFile, place: &[&str]) -> Vec<Override> {
     input.keys(place).into_iter().map(setting).collect()
 }
 
-/// The resolved scene with the settings; what is wrong with it is noted.
+/// The numbers of the scene with the settings; what is wrong with it is noted.
 fn resolved(input: &mut InputFile, template: &Template, settings: &[Override]) -> Option<Json> {
     match template.scene(settings) {
-        Ok(scene) => Some(scene.resolved()),
+        Ok(scene) => Some(scene.numbers()),
         Err(errors) => {
             let place = if settings.is_empty() { "scene" } else { "set" };
             input.note(&[place], format!("the scene has errors: {errors}"), "mend the scene first");
@@ -95,7 +98,7 @@ fn resolved(input: &mut InputFile, template: &Template, settings: &[Override]) -
     }
 }
 
-/// The number at a dotted key of a resolved scene.
+/// The number at a dotted key of a scene.
 fn number_at(resolved: &Json, key: &str) -> Option<f64> {
     let step = |at: &Json, word: &str| -> Option<Json> {
         match at {
@@ -107,6 +110,28 @@ fn number_at(resolved: &Json, key: &str) -> Option<f64> {
         }
     };
     key.split('.').try_fold(resolved.clone(), |at, word| step(&at, word.trim()))?.as_f64()
+}
+
+/// Notes a number of a law that follows from what is said of its contact: alone it is no law.
+fn is_written(input: &mut InputFile, number: &FreeNumber, template: &Template, settings: &[Override], numbers: &Json) {
+    let written = template.written();
+    for key in &number.keys {
+        let words: Vec<&str> = key.split('.').map(str::trim).collect();
+        let ["contact", contact, law, ..] = words[..] else { continue };
+        let place = contact.parse::<usize>().unwrap_or_default();
+        let is_said = numbers["contact"][place].get("from").is_some() && law != "from";
+        let is_set =
+            settings.iter().any(|setting| setting.to_string().starts_with(&format!("contact.{contact}.{law}")));
+        if is_said && written["contact"][place].get(law).is_none() && !is_set {
+            let message = format!("`{law}` of this contact follows from its `from`");
+            let said: Vec<String> = numbers["contact"][place]["from"]
+                .as_object()
+                .map(|said| said.keys().map(|word| format!("contact.{contact}.from.{word}")).collect())
+                .unwrap_or_default();
+            let help = format!("fit one of {}, or write `{law}` as `gyration check` prints it", said.join(", "));
+            input.note(&["fit", &number.name], message, help);
+        }
+    }
 }
 
 fn number(input: &mut InputFile, name: &str, resolved: Option<&Json>) -> Option<FreeNumber> {
