@@ -55,6 +55,14 @@ impl Key {
         other.0.starts_with(&self.0)
     }
 
+    /// The names in it, without the indices.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().filter_map(|segment| match segment {
+            Segment::Name(name) => Some(name.as_str()),
+            Segment::Index(_) => None,
+        })
+    }
+
     /// The dotted form, with items of arrays by name where they have one.
     pub(crate) fn dotted(&self, root: &Node) -> String {
         let mut words: Vec<String> = Vec::with_capacity(self.0.len());

@@ -4,8 +4,43 @@ use super::rule::{FieldRule, Rule, Rules};
 use crate::key::Key;
 use std::collections::{BTreeMap, VecDeque};
 
-/// Words that people write, the sections in which they do, and what to write there.
-const MEANT: [(&[&str], &[&str], &str); 6] = [
+/// Words that people write, the tables in which they do, and what to write there.
+const MEANT: [(&[&str], &[&str], &str); 9] = [
+    (&["spin", "omega"], &["body"], "`angular_velocity = [x, y, z]` says how it turns"),
+    (&["diameter"], &["sphere", "cylinder", "cone", "capsule"], "write `radius`, half of it"),
+    (
+        &["thickness", "length", "depth"],
+        &["cylinder", "cone", "capsule"],
+        "write `height`, along the axis; of a capsule it is that of the cylinder between the caps",
+    ),
+    (
+        &["friction", "friction_coefficient", "mu"],
+        &["from"],
+        "write `friction_angle`, the slope on which it begins to slide: mu = tan of it; and `sliding_speed`, far above \
+            which it slides and below which it creeps",
+    ),
+    (
+        &["damping", "friction", "stiffness"],
+        &["joint"],
+        "write `drive = { torque = \"-0.1*rate\" }`, of a slider `force`: it may depend on angle, rate and t",
+    ),
+    (&["motor", "servo", "torque", "actuator"], &["joint"], "write `drive = { torque = … }`, of a slider `force`"),
+    (&["type"], &["joint"], "write `kind`: ball, hinge, slider, weld or distance"),
+    (
+        &["material"],
+        &["body"],
+        "what deforms has it: `affine = { material = \"rubber\" }`; a rigid body has its `density`, 8500 of brass, or \
+            its `mass`",
+    ),
+    (
+        &["stiffness", "young", "modulus"],
+        &["contact"],
+        "it is said of a layer: `from = { layer = { youngs_modulus = …, poissons_ratio = …, thickness = … } }`",
+    ),
+];
+
+/// The same for all tables of these sections.
+const MEANT_IN: [(&[&str], &[&str], &str); 5] = [
     (
         &["rotation", "angle", "angles", "attitude"],
         &["body", "support"],
@@ -27,15 +62,19 @@ const MEANT: [(&[&str], &[&str], &str); 6] = [
         "what two do to each other stands in a `[[contact]]`: `from = { rest_gap = …, restitution = …, at_speed = … }`",
     ),
     (
-        &["stiffness", "young", "modulus"],
-        &["contact"],
-        "it is said of a layer: `from = { layer = { youngs_modulus = …, poissons_ratio = …, thickness = … } }`",
-    ),
-    (
         &["dt", "timestep", "time_step", "step", "steps", "substeps", "fps"],
         &["", "time", "solver", "world"],
         "the solver chooses its steps: `[solver] rtol` says how accurate, `[time] sample` how often it is recorded",
     ),
+];
+
+/// What others call what one of several words says.
+const CALLED: [(&[&str], &str); 5] = [
+    (&["revolute", "continuous", "pin"], "hinge"),
+    (&["prismatic", "linear"], "slider"),
+    (&["fixed", "rigid"], "weld"),
+    (&["spherical", "ball_and_socket"], "ball"),
+    (&["rod", "rope", "link"], "distance"),
 ];
 
 /// How deep tables are looked into.
@@ -44,35 +83,64 @@ const DEPTH: usize = 6;
 /// How many places of a word are told.
 const LISTED: usize = 4;
 
-/// What is meant by a word in the table at this key.
+/// What is meant by a word in the very table at this key: it goes before words that are written alike.
 pub(super) fn meant(word: &str, key: &Key) -> Option<String> {
-    let section = key.section().unwrap_or_default();
-    let is_here =
-        |(words, sections, _): &&(&[&str], &[&str], &str)| words.contains(&word) && sections.contains(&section);
-    MEANT.iter().find(is_here).map(|(.., help)| (*help).to_owned())
+    among(&MEANT, word, key.names().last().unwrap_or_default())
 }
 
-/// The tables of the same section, least deep, of which a word is a key.
+/// What is meant by a word somewhere in the section of this key.
+pub(super) fn meant_in(word: &str, key: &Key) -> Option<String> {
+    among(&MEANT_IN, word, key.section().unwrap_or_default())
+}
+
+/// The word among these by which the format calls what others call so.
+pub(super) fn called(word: &str, known: &[String]) -> Option<String> {
+    let (_, name) = CALLED.iter().find(|(words, name)| words.contains(&word) && known.iter().any(|one| one == name))?;
+    Some(format!("it is called \"{name}\" here"))
+}
+
+fn among(meant: &[(&[&str], &[&str], &str)], word: &str, place: &str) -> Option<String> {
+    let is_here = |(words, places, _): &&(&[&str], &[&str], &str)| words.contains(&word) && places.contains(&place);
+    meant.iter().find(is_here).map(|(.., help)| (*help).to_owned())
+}
+
+/// The tables of the same section of which a word is a key: those nearest to the table at this key, within it or
+/// within what it stands in, least deep.
 pub(super) fn elsewhere(word: &str, key: &Key, rules: &Rules) -> Option<String> {
-    let section = key.section()?;
-    let mut found: Vec<Vec<String>> = Vec::new();
-    let mut open = VecDeque::from([(vec![section.to_owned()], rules.fields(&rules.root)?.get(section)?)]);
+    let names: Vec<&str> = key.names().collect();
+    let mut around = Vec::with_capacity(names.len());
+    let mut at = &rules.root;
+    for name in &names {
+        let Some(inner) = rules.fields(at).and_then(|fields| fields.get(*name)) else { break };
+        around.push(inner);
+        at = inner;
+    }
+    let (depth, found) = around.iter().enumerate().rev().find_map(|(depth, table)| {
+        let found = within(word, table, rules);
+        (!found.is_empty()).then_some((depth, found))
+    })?;
+    let place = |path: &Vec<&str>| format!("`{}`", [&names[..=depth], path, &[word]].concat().join("."));
+    let places: Vec<String> = found.iter().map(place).collect();
+    Some(format!("its place is {}", places.join(", ")))
+}
+
+/// The ways from a table to those of which a word is a key, itself included, least deep.
+fn within<'a>(word: &str, table: &'a FieldRule, rules: &'a Rules) -> Vec<Vec<&'a str>> {
+    let mut found: Vec<Vec<&str>> = Vec::new();
+    let mut open = VecDeque::from([(Vec::new(), table)]);
     while let Some((path, field)) = open.pop_front() {
         let is_deeper = found.first().is_some_and(|first| path.len() > first.len());
         if is_deeper || found.len() == LISTED {
             break;
         }
         let Some(fields) = rules.fields(field) else { continue };
-        if fields.contains_key(word) && path.len() > 1 {
+        if fields.contains_key(word) {
             found.push(path);
         } else if path.len() < DEPTH {
-            let inner =
-                fields.iter().map(|(name, field)| ([path.as_slice(), std::slice::from_ref(name)].concat(), field));
-            open.extend(inner);
+            open.extend(fields.iter().map(|(name, field)| ([path.as_slice(), &[name.as_str()]].concat(), field)));
         }
     }
-    let places: Vec<String> = found.iter().map(|path| format!("`{}.{word}`", path.join("."))).collect();
-    (!places.is_empty()).then(|| format!("its place is {}", places.join(", ")))
+    found
 }
 
 impl Rules {

@@ -95,7 +95,8 @@ impl Walker<'_> {
             },
             (Value::Text(text), Rule::Choice { words, .. }) if words.contains(text) => {}
             (Value::Text(text), Rule::Choice { words, tags }) if !words.is_empty() && !tags.contains_key(text) => {
-                let help = suggest::fix(text, words.iter().map(String::as_str), "one of");
+                let listed = || suggest::fix(text, words.iter().map(String::as_str), "one of");
+                let help = meant::called(text, words).unwrap_or_else(listed);
                 self.diagnostics.at(node.span, key, format!("\"{text}\" is not known here"), help);
             }
             (Value::Text(_), Rule::Text | Rule::Expression)
@@ -167,13 +168,16 @@ impl Walker<'_> {
 
     /// What to write for a key that is none.
     fn help_with(&self, name: &str, key: &Key, fields: &BTreeMap<String, FieldRule>, what: &str) -> String {
+        if let Some(help) = meant::meant(name, key) {
+            return help;
+        }
         let known = fields.keys().map(String::as_str);
         let of_another_file = if *key == Key::root() { of_another_file(name) } else { None };
         if of_another_file.is_none() && suggest::nearest(name, known.clone()).is_some() {
             return suggest::fix(name, known, what);
         }
         of_another_file
-            .or_else(|| meant::meant(name, key))
+            .or_else(|| meant::meant_in(name, key))
             .or_else(|| meant::elsewhere(name, key, self.rules))
             .unwrap_or_else(|| suggest::fix(name, known, what))
     }
