@@ -29,8 +29,9 @@ fn rounding(gap: f64) -> f64 {
 /// A stop at a support is explained where bodies are nearer than this part of their size: far below, numbers end.
 const NEAR: f64 = 1e-7;
 
-fn cases() -> Range<u64> {
-    let Ok(asked) = std::env::var("GYRATION_CASES") else { return 0..40 };
+/// The cases that are asked for, or so many.
+pub fn cases(count: u64) -> Range<u64> {
+    let Ok(asked) = std::env::var("GYRATION_CASES") else { return 0..count };
     let (first, last) = asked.split_once("..").unwrap();
     first.parse().unwrap()..last.parse().unwrap()
 }
@@ -63,7 +64,7 @@ fn random_scenes_end_with_an_outcome_a_closed_ledger_and_no_overlap() {
     let folder = tempfile::tempdir().unwrap();
     let (mut outcomes, mut failures) = (BTreeMap::new(), Vec::new());
     let (mut worst, mut evaluations) = (0.0_f64, 0);
-    for case in cases() {
+    for case in cases(40) {
         let text = random::scene::scene(case, folder.path());
         if let Ok(to) = std::env::var("GYRATION_DUMP") {
             std::fs::write(format!("{to}/{case}.json"), &text).unwrap();

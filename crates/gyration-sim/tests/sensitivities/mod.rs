@@ -7,5 +7,6 @@ mod fluid;
 mod held;
 mod impacts;
 mod meaningless;
+mod random;
 mod samples;
 pub mod support;
