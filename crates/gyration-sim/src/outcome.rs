@@ -1,5 +1,6 @@
 //! How a run ended, in words and in data.
 
+use crate::format::significant;
 use gyration::load::FrictionFault;
 use gyration::model::Model;
 use gyration::{FormulaOf, Inadmissible, Party, Quantity};
@@ -154,6 +155,22 @@ impl Stop {
         }
     }
 
+    /// A stop because the drive of a hinge has jumped by so much [N m].
+    pub fn by_half_turn(joint: &str, time: f64, jump: f64) -> Self {
+        let by = if jump.is_nan() { String::new() } else { format!(", by {} N m", significant(jump.abs(), 3)) };
+        Self {
+            time,
+            reason: Reason::Undefined,
+            body: None,
+            what: format!(
+                "joint {joint:?} has turned past half a turn: `angle` goes from π to −π there, and its drive jumps{by}"
+            ),
+            advice: "Write the drive with sin(angle) and cos(angle), as \"-5*sin(angle - 3*t)\", drive its rate, as \
+                     \"-2*(rate - 3)\", or stop the hinge before with `limits`."
+                .into(),
+        }
+    }
+
     /// A stop because the energies are beyond the range of numbers.
     pub fn by_infinite_energy(time: f64) -> Self {
         Self {
@@ -292,13 +309,17 @@ impl Stop {
             Quantity::Volume => (
                 Reason::Inverted,
                 format!("body {body:?} is flattened: det P has come down to {:e}", left.value),
-                match model.bodies[left.body].has_inertia() {
-                    true => {
+                match (model.bodies[left.body].contraction(), model.bodies[left.body].has_inertia()) {
+                    (Some(_), _) => {
+                        "Its drive contracts it without end, or faster than it yields: raise the \
+                         `contraction_viscosity`, weaken the drive, or let it answer to the stretch by a `feedback`."
+                    }
+                    (None, true) => {
                         "Only a material whose energy grows without bound under compression forbids that: one with \
                          a `bulk` or a logarithm of the volume, or an incompressible one; or start it with a smaller \
                          `gradient_rate`."
                     }
-                    false => {
+                    (None, false) => {
                         "The flow presses it flat: a body without elasticity closes like a void. Give it a material \
                          with a `bulk` or a logarithm of the volume, or an incompressible one, or a weaker flow."
                     }

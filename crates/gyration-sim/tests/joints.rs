@@ -4,7 +4,7 @@ use crate::islands::parsed;
 use crate::resumption::resumes_after_every_window;
 use crate::sensitivities::support::{TIGHT, disagreement, strings};
 use gyration::dynamics::Workspace;
-use gyration_sim::{FirstSteps, Job, MemorySink, MomentumChange, Provenance, Simulation, Unwatched};
+use gyration_sim::{FirstSteps, Job, MemorySink, MomentumChange, Outcome, Provenance, Reason, Simulation, Unwatched};
 
 /// Two links, a rubber block on the lower and a ball on a spring, over a table.
 pub const ARM: &str = r#"
@@ -114,4 +114,47 @@ fn derivatives_of_an_arm_agree_with_differences_of_runs() {
     let overrides = [&strings(&TIGHT)[..], &["time.end=0.25".to_owned()]].concat();
     let worst = disagreement(ARM, &overrides, &keys, &quantities, 1e-4);
     assert!(worst < 1e-5, "{worst:e}");
+}
+
+/// An arm that a servo turns at 3 rad/s, from half a turn on out of reach of its angle.
+#[test]
+fn a_drive_that_jumps_at_half_a_turn_ends_the_run() {
+    let arm = |torque: &str| {
+        let text = format!(
+            r#"
+            [world]
+            gravity = [0, 0, 0]
+            [time]
+            end = 4
+            sample = 0.05
+            [[body]]
+            name = "arm"
+            shape = {{ box = {{ size = [0.2, 0.04, 0.06] }} }}
+            density = 1000
+            position = [0.1, 0, 0]
+            velocity = [0, 0, -0.3]
+            angular_velocity = [0, 3, 0]
+            [[joint]]
+            name = "shoulder"
+            between = ["space", "arm"]
+            kind = "hinge"
+            points = [[0, 0, 0], [-0.1, 0, 0]]
+            axis = [0, 1, 0]
+            drive = {{ torque = "{torque}" }}
+            "#
+        );
+        let scene = parsed(&text, &[]);
+        let built = scene.built();
+        let mut simulation = Simulation::new(&built.model, &built.state, built.into()).unwrap();
+        let mut sink = MemorySink::default();
+        simulation.begin(&mut sink).unwrap();
+        simulation.run(&mut sink, &mut Unwatched).unwrap()
+    };
+    let Outcome::Stopped(stop) = arm("10*(3*t - angle) - 2*(rate - 3)") else { panic!("it went on") };
+    println!("{}: {}", stop.time, stop.what);
+    assert!(stop.reason == Reason::Undefined && stop.what.contains("by 62.8 N m"), "{stop:?}");
+    // The angle is 3 t up to there.
+    assert!((stop.time - std::f64::consts::FRAC_PI_3).abs() < 1e-3, "{stop:?}");
+    assert_eq!(arm("10*sin(3*t - angle) - 2*(rate - 3)"), Outcome::Completed);
+    assert_eq!(arm("-2*(rate - 3)"), Outcome::Completed);
 }

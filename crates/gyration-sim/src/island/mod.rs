@@ -8,6 +8,7 @@
 mod approach;
 mod carried;
 mod detection;
+mod half_turns;
 pub(crate) mod horizon;
 mod merging;
 mod noting;
@@ -299,6 +300,7 @@ impl Island {
         self.note_parting();
         self.note_rest(plan, report.end);
         self.check_frictions(report.end)?;
+        self.check_half_turns(&report)?;
         if self.system.may_be_given_up() {
             // Gaps and forces at its end are not all known.
             return Err(Stop::by_interruption(time));

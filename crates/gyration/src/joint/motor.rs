@@ -9,6 +9,7 @@
 
 use crate::signal::Signal;
 use gyration_expression::{Expression, Scratch, Undefined};
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
 /// The variables of u of a hinge.
@@ -114,6 +115,24 @@ impl Motor {
         self.drive.is_some() || self.stop.is_some_and(|stop| stop.damping.is_some())
     }
 
+    /// Whether its drive may depend on the motion.
+    pub fn is_feedback(&self) -> bool {
+        matches!(self.drive, Some(Drive::Feedback(_)))
+    }
+
+    /// By how much u of a hinge jumps as its angle goes from π to −π at this rate and time; none where it goes on
+    /// there, as with the angle in sines and cosines alone. It is no number where u has no value there.
+    pub fn jump_at_half_turn(&self, rate: f64, time: f64) -> Option<f64> {
+        /// The part of u that is rounding.
+        const ROUNDING: f64 = 1e-9;
+        let Some(Drive::Feedback(law)) = &self.drive else { return None };
+        let mut scratch = Scratch::default();
+        let mut at = |angle| law.gradient(&[angle, rate, time], &mut scratch, &mut [0.0; 3]).unwrap_or(f64::NAN);
+        let size = [0.0, FRAC_PI_2, -FRAC_PI_2, PI].map(&mut at).iter().fold(0.0, |size: f64, u| size.max(u.abs()));
+        let jump = at(-PI) - at(PI);
+        (jump.is_nan() || jump.abs() > ROUNDING * size).then_some(jump)
+    }
+
     /// F at x, ẋ and t, and its derivatives.
     ///
     /// # Errors
@@ -166,6 +185,19 @@ impl Stop {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_drive_jumps_at_half_a_turn_unless_it_is_periodic() {
+        let jump = |law: &str| {
+            let law = Expression::parse(law, &ANGLE_NAMES, &[]).unwrap();
+            Motor { drive: Some(Drive::Feedback(Arc::new(law))), stop: None }.jump_at_half_turn(0.5, 2.0)
+        };
+        assert!((jump("10*(3*t - angle) - 2*rate").unwrap() - 20.0 * PI).abs() < 1e-12);
+        for periodic in ["-5*sin(angle)", "cos(2*angle)*rate", "angle^2", "sin(3*t) - rate", "0"] {
+            assert_eq!(jump(periodic), None, "{periodic}");
+        }
+        assert!(jump("ln(angle)").unwrap().is_nan());
+    }
 
     #[test]
     fn force_of_a_motor_is_that_of_its_energy_and_has_its_derivatives() {
