@@ -269,3 +269,50 @@ fn a_support_that_is_carried_round_the_origin_is_told() {
         assert!(!told.iter().any(|note| note.contains("carried round")), "{motion}: {told:?}");
     }
 }
+
+#[test]
+fn a_contraction_that_begins_at_a_rate_and_turns_its_body_is_told() {
+    let cat = |lines: &str| {
+        format!(
+            r#"{HEAD}[[body]]
+            name = "cat"
+            shape = {{ capsule = {{ radius = 0.08, height = 0.3 }} }}
+            density = 1000
+            {lines}
+            [body.contractile]
+            material = {{ mooney_rivlin = {{ c1 = 3e3, c2 = 1e3 }} }}
+            viscosity = 20
+            prescribed = {{ sum = [
+              {{ constant = {{ value = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }} }},
+              {{ sine = {{ amplitude = [[0.3, 0, 0], [0, 0, 0], [0, 0, -0.3]], frequency = 1, phase = "90 deg" }} }},
+              {{ sine = {{ amplitude = [[0, 0, 0.3], [0, 0, 0], [0.3, 0, 0]], frequency = 1 }} }}] }}"#
+        )
+    };
+    let told = remarks(&cat("")).notes;
+    assert!(told[0].starts_with("\"cat\" starts with the angular momentum (0, 0.122"), "{told:?}");
+    assert!(told[0].contains("with (0, -1.5739, 0) rad/s added to its `angular_velocity`"), "{told:?}");
+    assert_eq!(remarks(&cat("angular_velocity = [0, -1.5738718943690573, 0]")).notes, Vec::<String>::new());
+}
+
+#[test]
+fn a_plane_that_no_contact_names_is_told() {
+    let plane = "[[support]]\nname = \"floor\"\nplane = {}\n";
+    let fallen = format!("{HEAD}{plane}{}", ball("a", 0.02, "position = [0, 0, 1]\n"));
+    let expected = "nothing touches the support \"floor\": no contact names it, and bodies go through it";
+    assert_eq!(remarks(&fallen).notes, [expected]);
+    let touched = format!("{fallen}[[contact]]\nsupport = \"floor\"\n{REPULSION}");
+    assert_eq!(remarks(&touched), Remarks::default());
+}
+
+#[test]
+fn a_contact_of_many_bodies_without_a_reach_is_told() {
+    let heap = |count: usize, lines: &str| {
+        let balls: String = (0..count).map(|k| ball(&format!("b{k}"), 0.02, &at(k as f64))).collect();
+        let contact = between("b0", "b1", lines).replace("\"b0\", \"b1\"", "\"pile\", \"pile\"");
+        format!("{HEAD}{}{contact}", balls.replace("mass = 1", "mass = 1\ngroup = \"pile\""))
+    };
+    let told = remarks(&heap(8, "")).notes;
+    assert!(told.len() == 1 && told[0].contains("has no reach") && told[0].contains("`reach = \"auto\"`"), "{told:?}");
+    assert_eq!(remarks(&heap(3, "")).notes, Vec::<String>::new());
+    assert_eq!(remarks(&heap(8, "reach = \"5 mm\"")).notes, Vec::<String>::new());
+}

@@ -3,6 +3,7 @@
 //! A note is worth a line; a warning says that the answer may not be the one that was asked for. Nothing here changes a
 //! run, and all of it takes a time that grows as the number of bodies.
 
+mod begun;
 mod cut;
 mod far;
 mod fluid;
@@ -15,6 +16,7 @@ mod stored;
 mod strangers;
 mod trial;
 mod turning;
+mod untouched;
 
 pub(crate) use fluid::LeftOut;
 
@@ -46,7 +48,10 @@ impl Remarks {
         let mut remarks = Self::default();
         strangers::remark(model, start, &mut remarks);
         remarks.notes.extend(plates::notes(model, start));
+        remarks.notes.extend(untouched::notes(model));
         remarks.notes.extend(turning::notes(model));
+        remarks.notes.extend(begun::notes(model, start));
+        remarks.notes.extend(reaches::notes(model));
         remarks.warnings.extend(meshes::warnings(model));
         remarks.warnings.extend(stored::warning(model, start));
         remarks.warnings.extend(reaches::warnings(model, start));

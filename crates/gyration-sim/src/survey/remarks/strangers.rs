@@ -34,25 +34,42 @@ pub(super) fn remark(model: &Model, start: &State, remarks: &mut Remarks) {
     let linked = model.joints().iter().filter_map(Joint::bodies).map(sorted).filter(is_solid);
     let apart = apart_for_ever(model, &solid).into_iter().chain(linked).filter(|pair| !meet(model, *pair));
     let mut known: HashSet<[usize; 2]> = apart.collect();
-    let strangers = all.saturating_sub(meeting + known.len());
-    let Some([one, other]) = first_stranger(model, &sorts, &known) else { return };
-    let name = |body: usize| model.name(body);
-    let who = match (strangers, meeting) {
-        (1, _) => format!("\"{}\" and \"{}\" do not meet", name(one), name(other)),
-        (_, 0) if strangers == all => format!("the {} bodies do not meet one another", solid.len()),
-        _ => format!(
-            "{strangers} of {all} pairs of bodies do not meet, \"{}\" and \"{}\" among them",
-            name(one),
-            name(other)
-        ),
+    let who = |known: &HashSet<[usize; 2]>| {
+        let strangers = all.saturating_sub(meeting + known.len());
+        let [one, other] = first_stranger(model, &sorts, known)?.map(|body| model.name(body));
+        let who = match (strangers, meeting) {
+            (1, _) => format!("\"{one}\" and \"{other}\" do not meet"),
+            (_, 0) if strangers == all => format!("the {} bodies do not meet one another", solid.len()),
+            _ => format!("{strangers} of {all} pairs of bodies do not meet, \"{one}\" and \"{other}\" among them"),
+        };
+        Some((format!("{who}: no contact says so"), strangers == 1))
     };
+    let Some((told, is_one)) = who(&known) else { return };
+    let mut expected = known.clone();
+    expected.extend(of_linkages(model, &solid).into_iter().filter(|pair| !meet(model, *pair)));
     // What a spring joins may overlap: links of a chain.
     known.extend(model.joined().map(sorted));
-    let told = format!("{who}: no contact says so");
     match Overlapping::among(model, start, &solid, &known) {
-        Some(found) => remarks.warnings.push(format!("{told}, and {}", found.in_words(model, strangers == 1))),
-        None => remarks.notes.push(told),
+        Some(found) => remarks.warnings.push(format!("{told}, and {}", found.in_words(model, is_one))),
+        None => remarks.notes.extend(who(&expected).map(|(told, _)| told)),
     }
+}
+
+/// The pairs of bodies that hang together by joints; of large linkages none.
+fn of_linkages(model: &Model, solid: &[usize]) -> Vec<[usize; 2]> {
+    let mut linkage: Vec<usize> = (0..model.bodies.len()).collect();
+    for [one, other] in model.joints().iter().filter_map(Joint::bodies) {
+        let (from, to) = (linkage[one], linkage[other]);
+        linkage.iter_mut().filter(|of| **of == from).for_each(|of| *of = to);
+    }
+    let mut members: HashMap<usize, Vec<usize>> = HashMap::new();
+    solid.iter().for_each(|body| members.entry(linkage[*body]).or_default().push(*body));
+    let small = members.values().filter(|members| members.len() <= MOST_PINNED);
+    let pairs = |members: &Vec<usize>| {
+        let others = |place: usize| members[place + 1..].iter().copied();
+        members.iter().enumerate().flat_map(|(place, one)| others(place).map(|other| [*one, other])).collect::<Vec<_>>()
+    };
+    small.flat_map(pairs).collect()
 }
 
 /// Strangers that overlap at the start.
