@@ -61,7 +61,7 @@ pub enum Refusal {
         count: usize,
     },
     /// A number is not finite.
-    #[error("what is applied to body {body:?} has a number that is not finite: look at what the controller computed")]
+    #[error("body {body:?} is given a number that is not finite: look at what computed it")]
     NotFinite {
         /// The body.
         body: String,
@@ -69,7 +69,7 @@ pub enum Refusal {
     /// The body has no drive.
     #[error(
         "body {body:?} has no drive to change: only a contractile body whose contraction is driven has; give it a \
-         `contraction` with a `drive` (of zeros, if all of it comes from here)"
+         `contractile` with a `drive` (of zeros, if all of it comes from here)"
     )]
     NoDrive {
         /// The body.

@@ -13,7 +13,9 @@ use crate::run::Simulation;
 use gyration::balance::observe_at;
 use gyration::dynamics::{Workspace, acting};
 use gyration::model::Model;
+use gyration::tensor::{Mat3, Vec3};
 use gyration_record::Attributes;
+use nalgebra::{Rotation3, UnitQuaternion};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::time::Duration;
@@ -65,7 +67,50 @@ pub struct BodySummary {
     pub angular_momentum: [f64; 3],
     /// Affine momentum K = P J Ṗᵀ, rows [kg m²/s].
     pub affine_momentum: [[f64; 3]; 3],
+    /// How it stands and turns; none of a body that deforms, and of points.
+    #[serde(skip)]
+    pub attitude: Option<Attitude>,
 }
+
+/// How a rigid body stands and turns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Attitude {
+    /// By how much it is turned [rad], from 0 to π.
+    pub angle: f64,
+    /// About which axis; none where it is not turned.
+    pub axis: Option<[f64; 3]>,
+    /// [rad/s].
+    pub angular_velocity: [f64; 3],
+    /// Which of its own axes, with its sign, looks along gravity; none where no axis does, or nothing pulls.
+    pub below: Option<&'static str>,
+}
+
+impl Attitude {
+    /// Of a rotation P and its rate, under gravity [m/s²].
+    fn of(rotation: &Mat3, rate: &Mat3, gravity: &Vec3) -> Self {
+        let turned = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation));
+        let spin = rate * rotation.transpose();
+        let down = gravity.try_normalize(0.0).map(|down| rotation.tr_mul(&down));
+        let sides = [("+x", 0), ("-x", 0), ("+y", 1), ("-y", 1), ("+z", 2), ("-z", 2)];
+        let lies_on = |(side, axis): &(&'static str, usize)| {
+            let along = down.map_or(0.0, |down| down[*axis]);
+            (if side.starts_with('+') { along } else { -along }) > LIES_ON
+        };
+        Self {
+            angle: turned.angle(),
+            axis: turned.axis().map(|axis| axis.into_inner().into()),
+            angular_velocity: [
+                0.5 * (spin[(2, 1)] - spin[(1, 2)]),
+                0.5 * (spin[(0, 2)] - spin[(2, 0)]),
+                0.5 * (spin[(1, 0)] - spin[(0, 1)]),
+            ],
+            below: sides.into_iter().find(lies_on).map(|(side, _)| side),
+        }
+    }
+}
+
+/// The cosine beyond which an axis counts as vertical: 8°.
+const LIES_ON: f64 = 0.99;
 
 impl RunSummary {
     /// The names of [`RunSummary::attributes`].
@@ -98,6 +143,8 @@ impl RunSummary {
                 let acting = acting(&at, scratch).ok()?;
                 let seen = observe_at(&at, &acting, scratch).ok()?;
                 let k = seen.affine_momentum;
+                let (p, rate) = (&seen.motion.placement.gradient, &seen.motion.velocity.gradient_rate);
+                let body = &model.bodies[index];
                 Some(BodySummary {
                     name: model.name(index).to_owned(),
                     position: seen.motion.placement.position.into(),
@@ -106,6 +153,8 @@ impl RunSummary {
                     linear_momentum: seen.linear_momentum.into(),
                     angular_momentum: seen.angular_momentum.into(),
                     affine_momentum: [0, 1, 2].map(|row| [0, 1, 2].map(|col| k[(row, col)])),
+                    attitude: (body.affine().is_none() && !body.is_point())
+                        .then(|| Attitude::of(p, rate, &model.gravity)),
                 })
             })
             .collect();

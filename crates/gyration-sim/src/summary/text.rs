@@ -1,7 +1,7 @@
 //! The summary of a run for people: outcome, steps, ledger, momenta, events.
 
 use super::verdict::ROUNDING;
-use super::{BodySummary, LedgerSummary, RunSummary};
+use super::{Attitude, BodySummary, LedgerSummary, RunSummary};
 use crate::format::{duration, significant, vector};
 use gyration_record::{RecordError, Recording};
 use gyration_scene::Scene;
@@ -137,11 +137,37 @@ fn bodies(bodies: &[BodySummary]) -> String {
         let _ = writeln!(text, "  {:<20} at {} m{gap}", body.name, vector(&body.position));
         let _ = writeln!(text, "  {:<20} momentum {} kg m/s", "", vector(&body.linear_momentum));
         let _ = writeln!(text, "  {:<20} angular momentum {} kg m²/s", "", vector(&body.angular_momentum));
-        let [first, second, third] = &body.affine_momentum;
-        let rows = [vector(first), vector(second), vector(third)].join(" ");
-        let _ = writeln!(text, "  {:<20} affine momentum {rows} kg m²/s", "");
+        let _ = match &body.attitude {
+            Some(attitude) => writeln!(text, "  {:<20} {}", "", stands(attitude)),
+            None => {
+                let [first, second, third] = &body.affine_momentum;
+                let rows = [vector(first), vector(second), vector(third)].join(" ");
+                writeln!(text, "  {:<20} affine momentum {rows} kg m²/s", "")
+            }
+        };
+    }
+    if bodies.len() > 1 {
+        let _ = writeln!(text, "  {:<20} momentum {} kg m/s", "in all", vector(&total(bodies, |b| &b.linear_momentum)));
+        let angular = vector(&total(bodies, |body| &body.angular_momentum));
+        let _ = writeln!(text, "  {:<20} angular momentum {angular} kg m²/s", "");
     }
     text
+}
+
+/// How a rigid body stands and turns, in a line.
+fn stands(attitude: &Attitude) -> String {
+    let Attitude { angle, axis, angular_velocity, below } = attitude;
+    let turned = match axis {
+        Some(axis) => format!("turned by {} deg about {}", significant(angle.to_degrees(), 5), vector(axis)),
+        None => "not turned".to_owned(),
+    };
+    let below = below.map(|side| format!(", {side} looks down")).unwrap_or_default();
+    format!("{turned}{below}, angular velocity {} rad/s", vector(angular_velocity))
+}
+
+/// The sum over bodies of a vector of theirs.
+fn total(bodies: &[BodySummary], of: impl Fn(&BodySummary) -> &[f64; 3]) -> [f64; 3] {
+    bodies.iter().fold([0.0; 3], |sum, body| [0, 1, 2].map(|axis| sum[axis] + of(body)[axis]))
 }
 
 /// What many bodies have in common at the end: where they are, how far from supports, how fast, and their momentum.
@@ -169,8 +195,8 @@ fn crowd(bodies: &[BodySummary]) -> String {
         let _ =
             writeln!(text, "  {:<20} {mean} m/s in the square mean, at most {most} m/s ({})", "speed", fastest.name);
     }
-    let total = bodies.iter().fold([0.0; 3], |sum, body| [0, 1, 2].map(|axis| sum[axis] + body.linear_momentum[axis]));
-    let _ = writeln!(text, "  {:<20} {} kg m/s in all", "momentum", vector(&total));
+    let total = vector(&total(bodies, |body| &body.linear_momentum));
+    let _ = writeln!(text, "  {:<20} {total} kg m/s in all", "momentum");
     text
 }
 
@@ -207,6 +233,7 @@ mod tests {
             linear_momentum: [0.5, 0.0, k as f64],
             angular_momentum: [0.0; 3],
             affine_momentum: [[0.0; 3]; 3],
+            attitude: None,
         };
         let text = crowd(&(0..4).map(body).collect::<Vec<_>>());
         let lines: Vec<String> =
