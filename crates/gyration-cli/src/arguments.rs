@@ -5,9 +5,9 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use clap_complete::engine::{ArgValueCompleter, CompletionCandidate, PathCompleter, ValueCompleter};
-use gyration_plot::PlotQuantity;
 #[cfg(feature = "study")]
 use gyration_plot::study::PlotKind;
+use gyration_plot::{PlotQuantity, TimeSpan};
 use gyration_sim::resistance::TRIANGLES_ALLOWED;
 use std::ffi::OsStr;
 use std::num::NonZeroUsize;
@@ -297,6 +297,12 @@ pub struct Export {
     /// The time of the picture [s] (png) [default: the end]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub at: Option<f64>,
+    /// Show it from this time on [s] (gif, mp4)
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub from: Option<f64>,
+    /// Show it up to this time [s] (gif, mp4)
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub to: Option<f64>,
     /// Write what acts between two, a row a sample and pair (csv of a scene with record = { pairs = true })
     #[arg(long)]
     pub pairs: bool,
@@ -337,9 +343,32 @@ pub struct Plot {
     /// besides: G_xz,G_zz or G_zz,P_zz [default: entries of G that enclose most]
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     pub measures: Vec<String>,
+    /// Columns of the CSV over time: die.vx,*.gap or joint.*.angle; * stands for any letters
+    #[arg(long, value_name = "A,B", value_delimiter = ',')]
+    pub columns: Vec<String>,
+    /// Show it from this time on [s]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub from: Option<f64>,
+    /// Show it up to this time [s]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub to: Option<f64>,
     /// Change a value of the scene before its laws are drawn
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
+}
+
+impl Plot {
+    /// From when to when it is shown.
+    pub fn span(&self) -> TimeSpan {
+        TimeSpan { from: self.from, to: self.to }
+    }
+}
+
+impl Export {
+    /// From when to when it is shown.
+    pub fn span(&self) -> TimeSpan {
+        TimeSpan { from: self.from, to: self.to }
+    }
 }
 
 /// `gyration report`

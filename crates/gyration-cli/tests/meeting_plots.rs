@@ -166,3 +166,30 @@ fn laws_on_a_support_with_a_shape_are_drawn() {
     let told = drawn(&sandbox, &["scene.toml", "laws"]);
     assert!(told.contains("ball on slab") && told.contains("(slab): ν = 6"), "{told}");
 }
+
+#[test]
+fn columns_are_drawn_by_their_names_and_a_span_is_all_that_is_seen() {
+    let sandbox = recorded(&balls(""));
+    let told = drawn(&sandbox, &["scene.gyr", "--columns", "a.vx,b.v*,*.gap"]);
+    for expected in ["a.vx", "b.vx", "b.vy", "b.vz", "[m/s]", "4 columns", "a.gap", "[m]", "2 columns"] {
+        assert!(told.contains(expected), "no {expected:?} in {told}");
+    }
+    // Ticks are those of the span.
+    let part = drawn(&sandbox, &["scene.gyr", "--columns", "a.x", "--from", "0.10", "--to", "0.14"]);
+    assert!(part.contains("0.12") && !part.contains("0.3"), "{part}");
+    let strips = [["0", "0.2"], ["0.2", "0.4"]]
+        .map(|[from, to]| drawn(&sandbox, &["scene.gyr", "strip", "--from", from, "--to", to]));
+    assert!(strips[0].contains("0 s") && !strips[1].contains(" 0 s"), "{strips:?}");
+    for (arguments, expected) in [
+        (["--columns", "c.x"], "no column `c.x`\n  fix: there are a.x, b.x; `*`"),
+        (["--from", "5"], "no sample is within that span\n  fix: the recording has 41 of them, from 0 to 0.4 s"),
+    ] {
+        let said = sandbox.refused(2, &[&["plot", "scene.gyr"], &arguments[..]].concat());
+        assert!(said.stderr.contains(expected), "{}", said.stderr);
+    }
+    let said = sandbox.refused(2, &["plot", "scene.toml", "--columns", "a.x"]);
+    assert!(said.stderr.contains("`gyration run scene.toml` first"), "{}", said.stderr);
+    sandbox.done(&["export", "scene.gyr", "-o", "part.gif", "--from", "0.1", "--to", "0.2"]);
+    let said = sandbox.refused(2, &["export", "scene.gyr", "-o", "part.csv", "--from", "0.1"]);
+    assert!(said.stderr.contains("gif and mp4"), "{}", said.stderr);
+}

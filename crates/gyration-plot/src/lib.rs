@@ -36,4 +36,5 @@ pub use bands::bands;
 pub use draw::{Film, FilmFrame, Format};
 pub use error::PlotError;
 pub use figure::Figure;
-pub use show::{OVERVIEW, PlotQuantity, bodies_at, laws, leave_overview, of_recording};
+pub use recorded::TimeSpan;
+pub use show::{Asked, OVERVIEW, PlotQuantity, bodies_at, laws, leave_overview, of_recording};

@@ -13,6 +13,7 @@ use gyration_record::Recording;
 use gyration_record::export::bodies_with_outlines;
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
+use std::ops::Range;
 
 /// A recording with its descriptions.
 #[derive(Debug)]
@@ -29,6 +30,17 @@ pub struct RecordedScene<'a> {
     pub solid_supports: Vec<SolidSupportPicture>,
     /// Acceleration of gravity [m/s²].
     pub gravity: Vec3,
+    /// The samples that are shown.
+    rows: Range<usize>,
+}
+
+/// From when to when a recording is shown [s]; all of it where nothing is said.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TimeSpan {
+    /// The first time.
+    pub from: Option<f64>,
+    /// The last time.
+    pub to: Option<f64>,
 }
 
 /// What a drawing needs of a body.
@@ -124,7 +136,34 @@ impl<'a> RecordedScene<'a> {
             supports: supports.into_iter().map(Support::from).collect(),
             solid_supports: SolidSupportPicture::all(recording)?,
             gravity: attribute::<[f64; 3]>(recording, "gravity")?.into(),
+            rows: 0..recording.rows(),
         })
+    }
+
+    /// The same of the samples within a span.
+    ///
+    /// # Errors
+    /// [`PlotError::Arguments`] if there are none; those of reading.
+    pub fn within(self, span: TimeSpan) -> Result<Self, PlotError> {
+        if span == TimeSpan::default() {
+            return Ok(self);
+        }
+        let times = self.recording.read("time")?.data;
+        // A time that is written means the sample at it, whatever rounding has left.
+        let rounding = 1e-12 * times.last().map_or(0.0, |last| last.abs());
+        let first = times.partition_point(|time| *time < span.from.unwrap_or(f64::NEG_INFINITY) - rounding);
+        let end = times.partition_point(|time| *time <= span.to.unwrap_or(f64::INFINITY) + rounding);
+        if first >= end {
+            let [from, to] = [times.first(), times.last()].map(|time| time.copied().unwrap_or_default());
+            let fix = format!("the recording has {} of them, from {from} to {to} s", times.len());
+            return Err(PlotError::arguments("no sample is within that span", fix));
+        }
+        Ok(Self { rows: first..end, ..self })
+    }
+
+    /// The samples that are shown.
+    pub fn rows(&self) -> Range<usize> {
+        self.rows.clone()
     }
 
     /// The direction against gravity; the first support's normal without gravity, z without either.
@@ -146,12 +185,12 @@ impl<'a> RecordedScene<'a> {
     /// # Errors
     /// Those of reading.
     pub fn span(&self) -> Result<(f64, f64), PlotError> {
-        let rows = self.recording.rows();
-        if rows == 0 {
+        let Range { start, end } = self.rows;
+        if end == start {
             return Err(PlotError::Empty { path: self.recording.path().to_path_buf() });
         }
         let time = |row: usize| Ok::<_, PlotError>(self.recording.read_rows("time", row..row + 1)?.data[0]);
-        Ok((time(0)?, time(rows - 1)?))
+        Ok((time(start)?, time(end - 1)?))
     }
 
     /// Lines over time: `value(row, k)` of line k, from the rows of the named arrays.
@@ -173,7 +212,7 @@ impl<'a> RecordedScene<'a> {
 
     /// So many lines to be filled, sample by sample.
     pub fn thinners(&self, count: usize) -> Vec<Thinner> {
-        vec![Thinner::new(self.recording.rows()); count]
+        vec![Thinner::new(self.rows.len()); count]
     }
 
     /// Goes once through the samples: the time [s] and the rows of the named arrays.
@@ -181,7 +220,8 @@ impl<'a> RecordedScene<'a> {
     /// # Errors
     /// Those of reading.
     pub fn each_row(&self, arrays: &[&str], mut each: impl FnMut(f64, &[&[f64]])) -> Result<(), PlotError> {
-        for rows in self.recording.chunks() {
+        let shown = |rows: Range<usize>| rows.start.max(self.rows.start)..rows.end.min(self.rows.end);
+        for rows in self.recording.chunks().map(shown).filter(|rows| !rows.is_empty()) {
             let times = self.recording.read_rows("time", rows.clone())?.data;
             let read = |name: &&str| self.recording.read_rows(name, rows.clone());
             let chunk = arrays.iter().map(read).collect::<Result<Vec<_>, _>>()?;

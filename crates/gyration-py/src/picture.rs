@@ -2,7 +2,7 @@
 
 use crate::errors;
 use gyration_plot::study::{PlotRequest, of_table};
-use gyration_plot::{Figure, Format, PlotError, PlotQuantity, calibration};
+use gyration_plot::{Asked, Figure, Format, PlotError, PlotQuantity, calibration};
 use gyration_record::{Recording, write_file};
 use gyration_scene::Scene;
 use gyration_study::DataFrame;
@@ -49,7 +49,8 @@ impl PictureSource {
                 if quantities.is_empty() {
                     quantities.push(PlotQuantity::Overview);
                 }
-                gyration_plot::of_recording(recording, &quantities, measures)
+                let asked = Asked { quantities: &quantities, measures, ..Asked::default() };
+                gyration_plot::of_recording(recording, asked)
             }
             Self::Laws(scene) => gyration_plot::laws(scene),
             Self::Fit(calibration, fitted) => Ok(calibration::figure(calibration, fitted)),

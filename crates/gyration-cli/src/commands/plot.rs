@@ -4,7 +4,7 @@ use super::picture::{format, write};
 use crate::arguments::Plot;
 use crate::error::CliError;
 use crate::input::stem;
-use gyration_plot::{Figure, PlotQuantity};
+use gyration_plot::{Asked, Figure, PlotQuantity, TimeSpan};
 use gyration_record::Recording;
 use gyration_scene::Scene;
 use std::path::{Path, PathBuf};
@@ -38,7 +38,8 @@ fn is_table(path: &Path) -> bool {
 /// The picture that `gyration study … plot` draws without options.
 #[cfg(feature = "study")]
 fn of_table(arguments: &Plot) -> Result<u8, CliError> {
-    if !arguments.what.is_empty() || !arguments.measures.is_empty() || !arguments.overrides.is_empty() {
+    let is_of_a_run = !arguments.columns.is_empty() || arguments.span() != TimeSpan::default();
+    if is_of_a_run || !arguments.what.is_empty() || !arguments.measures.is_empty() || !arguments.overrides.is_empty() {
         return Err(CliError::arguments(
             format!("{} is the table of a study, which has columns", arguments.source),
             format!("`gyration study {} plot` with --x, --y, --colour, --kind", arguments.source),
@@ -49,6 +50,10 @@ fn of_table(arguments: &Plot) -> Result<u8, CliError> {
 
 /// The figure, and what its file is called.
 fn of_scene(arguments: &Plot) -> Result<(Figure, String), CliError> {
+    if !arguments.columns.is_empty() || arguments.span() != TimeSpan::default() {
+        let problem = format!("--columns, --from and --to are of a recording, and {} is a scene", arguments.source);
+        return Err(CliError::arguments(problem, format!("`gyration run {}` first", arguments.source)));
+    }
     let scene = Scene::open(&arguments.source, &arguments.overrides)?;
     if let Some(other) = arguments.what.iter().find(|what| **what != PlotQuantity::Laws) {
         return Err(CliError::arguments(
@@ -65,9 +70,17 @@ fn of_recording(arguments: &Plot) -> Result<(Figure, String), CliError> {
         return Err(CliError::arguments("--set changes a scene, not a recording", "leave out --set"));
     }
     let path = Path::new(&arguments.source);
-    let what = if arguments.what.is_empty() { &[PlotQuantity::Overview] } else { &arguments.what[..] };
-    let figure = gyration_plot::of_recording(&Recording::open(path)?, what, &arguments.measures)?;
-    Ok((figure, named(&stem(path), what, PlotQuantity::Overview)))
+    let Plot { measures, columns, .. } = arguments;
+    let all = [PlotQuantity::Overview];
+    let what = if arguments.what.is_empty() && columns.is_empty() { &all } else { &arguments.what[..] };
+    let asked = Asked { quantities: what, measures, columns, span: arguments.span() };
+    let figure = gyration_plot::of_recording(&Recording::open(path)?, asked)?;
+    let name = if what.is_empty() {
+        format!("{}-columns", stem(path))
+    } else {
+        named(&stem(path), what, PlotQuantity::Overview)
+    };
+    Ok((figure, name))
 }
 
 /// `STEM-WHAT`

@@ -76,7 +76,7 @@ impl Works {
 
 /// A remark where the works of all bodies [J] miss the ledger's.
 pub fn sampling(recorded: &RecordedScene, works: &[Works]) -> Result<Option<String>, PlotError> {
-    let last = recorded.recording.rows() - 1;
+    let last = recorded.rows().end - 1;
     let ledger = recorded.recording.read_rows("work_drive", last..last + 1)?.data[0];
     let (net, positive) = works.iter().fold((0.0, 0.0), |sum, works| (sum.0 + works.net, sum.1 + works.positive));
     let missed = (net - ledger).abs() / positive.max(ledger.abs());

@@ -1,6 +1,7 @@
 //! What a figure shows: the quantities that a user may ask for, and the figure of several of them.
 
 mod bodies;
+mod columns;
 mod component;
 mod cost;
 mod distance;
@@ -19,7 +20,7 @@ mod trace;
 use crate::draw::Format;
 use crate::error::PlotError;
 use crate::figure::{Figure, Panel};
-use crate::recorded::RecordedScene;
+use crate::recorded::{RecordedScene, TimeSpan};
 use crate::strip::{Motion, Strip};
 use gyration_record::{Recording, write_file};
 use gyration_scene::Scene;
@@ -32,19 +33,31 @@ pub use quantity::PlotQuantity;
 /// The picture that every run leaves in its recording.
 pub const OVERVIEW: &str = "overview.svg";
 
-/// What is asked of a recording, in one figure; `measures` are those of strokes.
+/// What is asked of a recording, in one figure.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Asked<'a> {
+    /// Quantities, one below the other.
+    pub quantities: &'a [PlotQuantity],
+    /// The measures of strokes.
+    pub measures: &'a [String],
+    /// Columns of the CSV, in which `*` stands for any letters.
+    pub columns: &'a [String],
+    /// From when to when.
+    pub span: TimeSpan,
+}
+
+/// What is asked of a recording.
 ///
 /// # Errors
-/// [`PlotError`] where the recording cannot be read or does not have a quantity.
-pub fn of_recording(
-    recording: &Recording,
-    quantities: &[PlotQuantity],
-    measures: &[String],
-) -> Result<Figure, PlotError> {
-    let recorded = RecordedScene::new(recording)?;
+/// [`PlotError`] where the recording cannot be read or does not have it.
+pub fn of_recording(recording: &Recording, asked: Asked) -> Result<Figure, PlotError> {
+    let recorded = RecordedScene::new(recording)?.within(asked.span)?;
     let mut all = Vec::new();
-    for quantity in quantities {
-        all.extend(panels(&recorded, *quantity, measures)?);
+    for quantity in asked.quantities {
+        all.extend(panels(&recorded, *quantity, asked.measures)?);
+    }
+    if !asked.columns.is_empty() {
+        all.extend(columns::charts(&recorded, asked.columns)?.into_iter().map(Panel::Chart));
     }
     Ok(figure(&recorded, all))
 }
@@ -75,7 +88,8 @@ pub fn laws(scene: &Scene) -> Result<Figure, PlotError> {
 /// alone, be it where nothing can be written.
 pub fn leave_overview(path: &Path) -> Option<String> {
     let draw = || -> Result<(), PlotError> {
-        let figure = of_recording(&Recording::open(path)?, &[PlotQuantity::Overview], &[])?;
+        let figure =
+            of_recording(&Recording::open(path)?, Asked { quantities: &[PlotQuantity::Overview], ..Asked::default() })?;
         let (file, picture) = (path.join(OVERVIEW), figure.render(Format::Svg));
         match fs::read(&file) {
             Ok(there) if there == picture => Ok(()),

@@ -9,6 +9,7 @@ use crate::error::PlotError;
 use crate::recorded::{Pose, RecordedScene};
 use gyration::support::Support;
 use gyration::tensor::{Mat3, Vec3};
+use std::ops::Range;
 
 /// Samples by which the motion is judged.
 const PROBES: usize = 400;
@@ -134,13 +135,15 @@ impl Strip {
     /// As there.
     pub fn at(recorded: &RecordedScene, time: Option<f64>) -> Result<Self, PlotError> {
         let watched = Watched::of(recorded)?;
-        let last = recorded.recording.rows().saturating_sub(1);
+        let rows = recorded.rows();
         let row = match time {
-            None => last,
-            Some(time) => nearest(last, time, |row| Ok(recorded.poses(row)?.0))?,
+            None => rows.end - 1,
+            Some(time) => nearest(rows, time, |row| Ok(recorded.poses(row)?.0))?,
         };
         let (time, poses) = recorded.poses(row)?;
-        Ok(watched.strip(vec![frame(recorded, &Probe { time, poses }, &watched.view)], true))
+        let strip = watched.strip(vec![frame(recorded, &Probe { time, poses }, &watched.view)], true);
+        // What is seen then fills the picture, not where it comes from and goes.
+        Ok(Strip { paths: Vec::new(), ..strip })
     }
 
     /// So many times of a recording, evenly, each a picture of its own, and whether a support moves.
@@ -154,8 +157,12 @@ impl Strip {
 }
 
 /// The row whose time is nearest; of times that grow.
-fn nearest(last: usize, time: f64, time_of: impl Fn(usize) -> Result<f64, PlotError>) -> Result<usize, PlotError> {
-    let (mut low, mut high) = (0, last);
+fn nearest(
+    rows: Range<usize>,
+    time: f64,
+    time_of: impl Fn(usize) -> Result<f64, PlotError>,
+) -> Result<usize, PlotError> {
+    let (mut low, mut high) = (rows.start, rows.end - 1);
     while high - low > 1 {
         let middle = usize::midpoint(low, high);
         if time_of(middle)? <= time { low = middle } else { high = middle }
@@ -172,9 +179,9 @@ fn evenly(count: usize, length: usize) -> impl Iterator<Item = usize> {
 }
 
 fn probes(recorded: &RecordedScene) -> Result<Vec<Probe>, PlotError> {
-    let rows = recorded.recording.rows();
+    let rows = recorded.rows();
     let probe = |row: usize| recorded.poses(row).map(|(time, poses)| Probe { time, poses });
-    evenly(PROBES, rows).map(probe).collect()
+    evenly(PROBES, rows.len()).map(|row| probe(rows.start + row)).collect()
 }
 
 /// Where the centre of a body is.
@@ -277,7 +284,7 @@ mod tests {
 
     #[test]
     fn the_sample_nearest_to_a_time_is_found() {
-        let row = |time: f64| nearest(10, time, |row| Ok(0.1 * row as f64)).unwrap_or(usize::MAX);
+        let row = |time: f64| nearest(0..11, time, |row| Ok(0.1 * row as f64)).unwrap_or(usize::MAX);
         assert_eq!([row(-1.0), row(0.04), row(0.06), row(0.34), row(0.36), row(2.0)], [0, 0, 1, 3, 4, 10]);
     }
 }

@@ -1,7 +1,7 @@
 //! Films and pictures of the bodies: GIF and PNG by ourselves, MP4 by ffmpeg.
 
 use crate::error::CliError;
-use gyration_plot::{Film, Format, PlotQuantity, bodies_at, of_recording};
+use gyration_plot::{Asked, Film, Format, PlotQuantity, TimeSpan, bodies_at, of_recording};
 use gyration_record::{Recording, write_file};
 use std::io::{self, Write};
 use std::path::Path;
@@ -10,13 +10,13 @@ use std::process::{Command, Stdio};
 /// Pictures a second of an MP4.
 const RATE: u32 = 25;
 
-fn film(recording: &Recording) -> Result<Film, CliError> {
-    Ok(of_recording(recording, &[PlotQuantity::Motion], &[])?.film())
+fn film(recording: &Recording, span: TimeSpan) -> Result<Film, CliError> {
+    Ok(of_recording(recording, Asked { quantities: &[PlotQuantity::Motion], span, ..Asked::default() })?.film())
 }
 
 /// Writes a GIF; tells what it has.
-pub fn gif(recording: &Recording, path: &Path) -> Result<String, CliError> {
-    let film = film(recording)?;
+pub fn gif(recording: &Recording, span: TimeSpan, path: &Path) -> Result<String, CliError> {
+    let film = film(recording, span)?;
     write_file(path, &film.gif())?;
     Ok(told(&film))
 }
@@ -29,8 +29,8 @@ pub fn png(recording: &Recording, time: Option<f64>, path: &Path) -> Result<Stri
 }
 
 /// Writes an MP4 by ffmpeg; tells what it has.
-pub fn mp4(recording: &Recording, path: &Path) -> Result<String, CliError> {
-    let film = film(recording)?;
+pub fn mp4(recording: &Recording, span: TimeSpan, path: &Path) -> Result<String, CliError> {
+    let film = film(recording, span)?;
     let [width, height] = film.size();
     let size = format!("{width}x{height}");
     let rate = RATE.to_string();

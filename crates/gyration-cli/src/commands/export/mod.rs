@@ -8,6 +8,7 @@ use crate::error::{CliError, code};
 use crate::input::stem;
 use crate::output;
 use clap::ValueEnum as _;
+use gyration_plot::TimeSpan;
 use gyration_record::{RecordError, Recording, cannot_write, export, replace_file};
 use gyration_sim::pairs_csv;
 use std::fs::File;
@@ -30,6 +31,9 @@ pub fn execute(arguments: &Export) -> Result<u8, CliError> {
     }
     if at.is_some() && format != ExportFormat::Png {
         return Err(CliError::arguments("--at is for png only", "leave it out: the other formats have all times"));
+    }
+    if arguments.span() != TimeSpan::default() && !matches!(format, ExportFormat::Gif | ExportFormat::Mp4) {
+        return Err(CliError::arguments("--from and --to are for gif and mp4", "leave them out"));
     }
     let recording = Recording::open(source)?;
     if *pairs && recording.ragged().is_none() {
@@ -59,8 +63,8 @@ pub fn execute(arguments: &Export) -> Result<u8, CliError> {
             })?;
             format!("{keys} of {} samples", recording.rows())
         }
-        ExportFormat::Gif => film::gif(&recording, &path)?,
-        ExportFormat::Mp4 => film::mp4(&recording, &path)?,
+        ExportFormat::Gif => film::gif(&recording, arguments.span(), &path)?,
+        ExportFormat::Mp4 => film::mp4(&recording, arguments.span(), &path)?,
         ExportFormat::Png => film::png(&recording, *at, &path)?,
         ExportFormat::Vtk => surfaces::write(&recording, &path, every.map_or(1, usize::from))?,
     };
