@@ -84,6 +84,13 @@ impl Scene {
 
 #[pymethods]
 impl Scene {
+    /// A scene from a path, the name of one in the gallery, or a dictionary; see :meth:`from_file`, :meth:`gallery` and
+    /// :meth:`from_dict`, which take more.
+    #[new]
+    fn new(scene: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Self::from_argument(scene)
+    }
+
     /// A scene from a file, TOML or JSON; paths in it are relative to its folder.
     ///
     /// ``overrides`` are changes by dotted key, as for :meth:`edit`. Raises ``SceneError`` with everything that is

@@ -110,44 +110,44 @@ impl Simulation {
         self.stepper.model().names().map(str::to_owned).collect()
     }
 
-    /// Positions of the centres of mass [m], (bodies, 3). Refreshed in place by each step: take a copy to keep one.
+    /// Positions of the centres of mass [m], (bodies, 3). An array of its own at each access.
     #[getter]
-    fn position<'py>(&self, py: Python<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        self.arrays.position.bind(py).clone()
+    fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        as_it_is(self.arrays.position.bind(py))
     }
 
-    /// Placement gradients P, (bodies, 3, 3); rotations for rigid bodies. Refreshed in place by each step.
+    /// Placement gradients P, (bodies, 3, 3); rotations for rigid bodies.
     #[getter]
     #[pyo3(name = "P")]
-    fn gradient<'py>(&self, py: Python<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        self.arrays.gradient.bind(py).clone()
+    fn gradient<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        as_it_is(self.arrays.gradient.bind(py))
     }
 
-    /// Velocities of the centres of mass [m/s], (bodies, 3). Refreshed in place by each step.
+    /// Velocities of the centres of mass [m/s], (bodies, 3).
     #[getter]
-    fn velocity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        self.arrays.velocity.bind(py).clone()
+    fn velocity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        as_it_is(self.arrays.velocity.bind(py))
     }
 
-    /// Rates of the placement gradients [1/s], (bodies, 3, 3). Refreshed in place by each step.
+    /// Rates of the placement gradients [1/s], (bodies, 3, 3).
     #[getter]
     #[pyo3(name = "Pdot")]
-    fn gradient_rate<'py>(&self, py: Python<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        self.arrays.gradient_rate.bind(py).clone()
+    fn gradient_rate<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        as_it_is(self.arrays.gradient_rate.bind(py))
     }
 
-    /// Contractions G, (bodies, 3, 3); NaN for bodies that do not contract. Refreshed in place by each step.
+    /// Contractions G, (bodies, 3, 3); NaN for bodies that do not contract.
     #[getter]
     #[pyo3(name = "G")]
-    fn contraction<'py>(&self, py: Python<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        self.arrays.contraction.bind(py).clone()
+    fn contraction<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        as_it_is(self.arrays.contraction.bind(py))
     }
 
     /// Smallest gaps to anything that a body has a contact with [m], (bodies,); infinite without contact. Refreshed in
     /// place by each step.
     #[getter]
-    fn gap<'py>(&self, py: Python<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        self.arrays.gap.bind(py).clone()
+    fn gap<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        as_it_is(self.arrays.gap.bind(py))
     }
 
     /// The angular velocity of a body in axes of space [rad/s]; of one that deforms, that of its mean rotation.
@@ -172,11 +172,27 @@ impl Simulation {
         if !until.is_finite() {
             return Err(errors::arguments(format!("`until` is {until}\n  fix: give a time in seconds")));
         }
+        if until < self.time() {
+            let time = self.time();
+            return Err(errors::arguments(format!(
+                "`until` is {until} s, and the simulation is at {time} s\n  fix: `until` counts from the start of the scene; \
+                 advance_by(dt) goes on by dt"
+            )));
+        }
         let mut monitor = PythonMonitor::new(progress)?;
         let gone = self.go(py, Some(until), &mut monitor);
         monitor.finish(py)?;
         gone?;
         Ok(self.time())
+    }
+
+    /// The same by a time [s] from where the simulation is.
+    #[pyo3(signature = (dt, *, progress=None))]
+    fn advance_by(&mut self, py: Python<'_>, dt: f64, progress: Option<&Bound<'_, PyAny>>) -> PyResult<f64> {
+        if !(dt.is_finite() && dt > 0.0) {
+            return Err(errors::arguments(format!("`dt` is {dt}\n  fix: give a time in seconds, above zero")));
+        }
+        self.advance(py, self.time() + dt, progress)
     }
 
     /// Applies a load to a body, by name or number, in the place of what was applied before; it is held until the next
@@ -404,6 +420,13 @@ impl Simulation {
         let told = format!("simulated by hand, recorded until now at t = {} s", self.stepper.time());
         Recording::of_run(path, kept.clone(), Some(told))
     }
+}
+
+/// A copy of what the simulation shows, which cannot be written to: a number that is set there would move nothing.
+fn as_it_is<'py>(shown: &Bound<'py, PyArrayDyn<f64>>) -> PyResult<Bound<'py, PyAny>> {
+    let copy = shown.call_method0("copy")?;
+    copy.getattr("flags")?.setattr("writeable", false)?;
+    Ok(copy)
 }
 
 /// A simulation again, from its scene and a state.

@@ -68,3 +68,16 @@ def test_what_makes_no_sense_is_refused():
     crawlers.reset(seed=[1, None])
     with pytest.raises(gyration.ArgumentError, match="fix: give"):
         crawlers.step(np.zeros(2))
+
+
+def test_a_block_out_of_its_shape_ends_its_episode():
+    # Drives at random for 20 s; without the limit one runs away to strains of thousands, which takes minutes.
+    crawlers = Crawler(4, dt=0.05, strain=0.2)
+    crawlers.reset(seed=0)
+    actions = np.random.default_rng(0)
+    ended = 0
+    for _ in range(400):
+        observations, _, terminations, _, _ = crawlers.step(actions.uniform(-1, 1, (4, 2)))
+        assert (terminations == (abs(observations[:, 1:9]) > 0.2).any(axis=1)).all()
+        ended += terminations.sum()
+    assert ended > 0

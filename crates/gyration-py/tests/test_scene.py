@@ -133,3 +133,13 @@ def test_sensitivities_of_a_free_fall_are_those_of_its_closed_form(ball):
     np.testing.assert_allclose(samples["derivatives"][:, 0, 2], 0.5 * samples["time"] ** 2, atol=1e-8)
     with pytest.raises(gyration.ArgumentError, match="ball.q"):
         gyration.sensitivities(flight, keys, ["ball.q"])
+
+
+def test_a_scene_is_made_of_whatever_stands_for_one(tmp_path):
+    dice = gyration.Scene("dice")
+    assert dice.text == gyration.Scene.gallery("dice").text
+    (tmp_path / "mine.toml").write_text(dice.text)
+    assert gyration.Scene(tmp_path / "mine.toml").resolved == dice.resolved
+    assert gyration.Scene(gyration.Scene(dice.resolved)).resolved == dice.resolved
+    with pytest.raises(gyration.ArgumentError, match="3 is no scene\n  fix: "):
+        gyration.Scene(3)

@@ -17,16 +17,26 @@ FREE = {
 }
 
 
-def test_arrays_are_refreshed_in_place_and_cannot_be_written(ball):
+def test_arrays_stay_as_they_were_and_cannot_be_written(ball):
     simulation = gyration.Simulation(ball)
-    position, gradient = simulation.position, simulation.P
-    assert position.shape == (1, 3) and gradient.shape == (1, 3, 3)
-    before = position.copy()
+    before, gradient = simulation.position, simulation.P
+    assert before.shape == (1, 3) and gradient.shape == (1, 3, 3)
     simulation.advance(0.1)
-    assert position is simulation.position
-    np.testing.assert_allclose(before[0, 2] - position[0, 2], 0.5 * 9.81 * 0.1**2, rtol=1e-6)
+    np.testing.assert_allclose(before[0, 2] - simulation.position[0, 2], 0.5 * 9.81 * 0.1**2, rtol=1e-6)
     with pytest.raises(ValueError):
-        position[0, 0] = 1.0
+        before[0, 0] = 1.0
+
+
+def test_a_time_in_the_past_is_refused_and_one_from_here_is_not():
+    simulation = gyration.Simulation(FREE)
+    for k in range(5):
+        assert simulation.advance_by(0.25) == 0.25 * (k + 1)
+    assert simulation.advance(1.25) == 1.25
+    with pytest.raises(gyration.ArgumentError, match=r"at 1.25 s\n  fix: .*advance_by"):
+        simulation.advance(0.25)
+    for dt in (0.0, -1.0, np.nan):
+        with pytest.raises(gyration.ArgumentError, match="fix: give a time"):
+            simulation.advance_by(dt)
 
 
 def test_a_constant_force_is_gravity():

@@ -57,6 +57,7 @@ CRAWLER: dict[str, Any] = {
                 "viscosity": 40.0,
                 "contraction_viscosity": 500.0,
                 "isochoric": True,
+                "spin": "symmetric",
                 "drive": {"constant": {"value": [[0.0] * 3] * 3}},
                 # The stretches of two diagonals differ by the shear.
                 "feedback": [
@@ -78,7 +79,7 @@ class Crawler(VectorEnv):
     13 numbers: the height of the centre over its start in block heights, P - I in the plane of the stroke (xx, xz, zx, zz), and G - I there;
     the velocity of the centre (x, z) in block heights a second, and Pdot there (xz, zz) [1/s]. The reward is the way along x in the
     interval, in block heights. An episode is truncated after ``steps`` intervals, and terminated where a block cannot go on
-    (``reasons`` in the infos).
+    (``reasons`` in the infos), or where an entry of P - I or G - I in the plane is beyond ``strain``: there it runs away from its shape.
 
     A reset begins with velocities drawn by its seed, up to ``noise`` [m/s]. With ``threads`` the members are shared out, on all cores
     without; results do not depend on it. ``ImportError`` says what to install.
@@ -92,6 +93,7 @@ class Crawler(VectorEnv):
         dt: float = 0.02,
         steps: int = 500,
         strength: float = 3e3,
+        strain: float = 0.5,
         noise: float = 1e-3,
         threads: int | None = None,
     ) -> None:
@@ -101,12 +103,14 @@ class Crawler(VectorEnv):
             from gymnasium.vector.utils import batch_space
         except ImportError as missing:
             raise ImportError(f"{missing}\n  fix: pip install gyration[gym]") from missing
-        if not (dt > 0 and steps > 0):
-            raise ArgumentError(f"steps of {dt} s, {steps} of them\n  fix: give `dt` and `steps` above zero")
+        if not (dt > 0 and steps > 0 and strain > 0):
+            raise ArgumentError(
+                f"{steps} steps of {dt} s, strains up to {strain}\n  fix: give `dt`, `steps` and `strain` above zero"
+            )
         self.num_envs, self.render_mode = num_envs, None
         self.metadata = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}
         self._batch = Batch(CRAWLER if scene is None else scene, num_envs, threads=threads)
-        self._dt, self._steps, self._strength, self._noise = dt, steps, strength, noise
+        self._dt, self._steps, self._strength, self._strain, self._noise = dt, steps, strength, strain, noise
         self.single_observation_space = Box(-np.inf, np.inf, (13,), np.float64)
         self.single_action_space = Box(-1.0, 1.0, (2,), np.float64)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
@@ -147,10 +151,12 @@ class Crawler(VectorEnv):
         arrived = self._batch.advance_by(np.where(fresh, 0.0, self._dt))
         self._made += ~fresh
         rewards = np.where(fresh, 0.0, (self._batch.position[:, 0, 0] - before) / self._height)
-        terminations, truncations = ~arrived, arrived & (self._made >= self._steps)
+        observations = self._observations()
+        terminations = ~arrived | (np.abs(observations[:, 1:9]) > self._strain).any(axis=1)
+        truncations = ~terminations & (self._made >= self._steps)
         self._over = terminations | truncations
-        infos = {"reasons": self._batch.reasons} if terminations.any() else {}
-        return self._observations(), rewards, terminations, truncations, infos
+        infos = {"reasons": self._batch.reasons} if not arrived.all() else {}
+        return observations, rewards, terminations, truncations, infos
 
     @property
     def _height(self) -> float:
