@@ -59,7 +59,7 @@ fn build(steps: &mut Steps) {
     }
     let Some(browser) = viewer::browser(steps) else { return };
     let mut test = viewer::npm();
-    test.args(["run", "test:site"]).env("GYRATION_SITE", &site);
+    test.args(["run", "test:site"]).env("GYRATION_SITE", &site).env("GYRATION_BIN", &program);
     steps.run_tests("the site", test.env("GYRATION_CHROMIUM", browser).env("NO_COLOR", "1"));
 }
 

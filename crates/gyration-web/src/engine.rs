@@ -1,7 +1,7 @@
 //! A scene that runs slice by slice, as it is asked for, and what it has to tell.
 
 use gyration_page::store::{Cursor, Message, Store};
-use gyration_page::{FirstRow, SceneHash, WatchedRun, finish, progress};
+use gyration_page::{FileFormat, FirstRow, KeptRun, SceneHash, WatchedRun, finish, progress};
 use gyration_record::RecordError;
 use gyration_scene::Scene;
 use gyration_sim::events::Event;
@@ -39,6 +39,8 @@ pub struct Engine {
     store: Store,
     cursor: Cursor,
     run: Option<Run>,
+    /// The rows of the run that began last, also once it is over.
+    kept: Option<KeptRun>,
 }
 
 /// A run under way.
@@ -54,8 +56,8 @@ impl Engine {
         let begun = serde_json::from_slice::<Asked>(asked).map_err(|error| (error.to_string(), None));
         let begun = begun.and_then(|asked| self.begin(&asked).map_err(|words| (words, Some(asked.set))));
         match begun {
-            Ok(run) => {
-                self.run = Some(run);
+            Ok((run, kept)) => {
+                (self.run, self.kept) = (Some(run), kept);
                 true
             }
             Err((message, set)) => {
@@ -69,7 +71,7 @@ impl Engine {
         }
     }
 
-    fn begin(&mut self, asked: &Asked) -> Result<Run, String> {
+    fn begin(&mut self, asked: &Asked) -> Result<(Run, Option<KeptRun>), String> {
         let name = format!("{}.toml", asked.name);
         let scene = Scene::parse(&name, &asked.scene, Path::new(""), &asked.set);
         let scene = scene.and_then(gyration_sim::complete).map_err(|errors| errors.to_string())?;
@@ -77,21 +79,21 @@ impl Engine {
         let mut first = FirstRow::default();
         let simulation = watched.begun(&mut first)?;
         watched.publish(&mut self.store);
-        let mut hash = watched.hash();
+        let (mut hash, mut kept) = (watched.hash(), watched.kept());
         if let Some((time, row)) = first.0 {
-            let told = Publisher { store: &mut self.store, hash: &mut hash }.row(time, &row);
+            let told = Publisher { store: &mut self.store, hash: &mut hash, kept: &mut kept }.row(time, &row);
             told.map_err(|error| error.to_string())?;
         }
-        Ok(Run { simulation, hash })
+        Ok((Run { simulation, hash }, kept))
     }
 
     /// Goes on for so many evaluations of the rates, and some more until a step is whole.
     pub fn advance(&mut self, evaluations: u64) -> Standing {
-        let Self { store, run: under_way, .. } = self;
+        let Self { store, run: under_way, kept, .. } = self;
         let Some(run) = under_way else { return Standing::Ended };
         let most = run.simulation.statistics().rate_evaluations.saturating_add(evaluations);
         let mut slice = Slice { most, progress: None };
-        let ran = run.simulation.run(&mut Publisher { store, hash: &mut run.hash }, &mut slice);
+        let ran = run.simulation.run(&mut Publisher { store, hash: &mut run.hash, kept }, &mut slice);
         match (ran, slice.progress) {
             (Ok(outcome), Some(progress)) if is_asked(&outcome) => {
                 store.progress(progress);
@@ -108,6 +110,15 @@ impl Engine {
                 Standing::Failed
             }
         }
+    }
+
+    /// A part of the run so far as a file, from zero; none behind the last one.
+    ///
+    /// # Errors
+    /// Words for the reader.
+    pub fn save(&self, format: FileFormat, part: usize) -> Result<Option<Vec<u8>>, String> {
+        let kept = self.kept.as_ref().ok_or("There is no run to be saved.")?;
+        kept.part(format, part).map_err(|error| error.to_string())
     }
 
     /// The messages since the last call, as frames: u32 kind (0 text, 1 binary), u32 length, the bytes, zeros up to a
@@ -147,10 +158,11 @@ fn is_asked(outcome: &Outcome) -> bool {
     matches!(outcome, Outcome::Stopped(stop) if stop.reason == Reason::Interrupted)
 }
 
-/// Publishes rows and events.
+/// Publishes and keeps rows and events.
 struct Publisher<'a> {
     store: &'a mut Store,
     hash: &'a mut Option<SceneHash>,
+    kept: &'a mut Option<KeptRun>,
 }
 
 impl Sink for Publisher<'_> {
@@ -158,13 +170,20 @@ impl Sink for Publisher<'_> {
         if let Some(hash) = self.hash {
             hash.add_row(time, row);
         }
+        if let Some(kept) = self.kept {
+            kept.add_row(time, row);
+        }
         self.store.row(time, row);
         Ok(())
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
         let Event { time, kind, body } = *event;
-        self.store.event(gyration_record::Event { time, kind, body: Some(body) });
+        let event = gyration_record::Event { time, kind, body: Some(body) };
+        self.store.event(event);
+        if let Some(kept) = self.kept {
+            kept.add_event(event);
+        }
         Ok(())
     }
 }
@@ -238,6 +257,35 @@ mod tests {
                 counts.push(slices);
             }
             assert!(counts[0] > 3 && counts[1] == 1, "{name}: {counts:?} slices");
+        }
+    }
+
+    fn saved(engine: &Engine, format: FileFormat) -> Vec<u8> {
+        (0..).map_while(|part| engine.save(format, part).unwrap()).flatten().collect()
+    }
+
+    /// The page is given stresses and parts of the contact forces besides, which no file has; rows in several chunks.
+    #[test]
+    fn files_are_those_that_are_exported_of_the_recording() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, set) in [("elastic-bounce", ["time.end=1", "time.sample=1e-4"]), ("stack", ["time.end=0.1", ""])] {
+            let set: Vec<_> = set.into_iter().filter(|one| !one.is_empty()).collect();
+            let scene = gyration_sim::open(name, &set.iter().map(|one| (*one).to_owned()).collect::<Vec<_>>()).unwrap();
+            let path = folder.path().join(name);
+            Job::of(&scene, &provenance()).record(&path, &mut Unwatched).unwrap();
+            let recording = gyration_record::Recording::open(&path).unwrap();
+            let (mut table, mut motion) = (Vec::new(), Vec::new());
+            gyration_record::export::csv(&recording, &mut table).unwrap();
+            gyration_record::export::gltf(&recording, &mut motion).unwrap();
+            let mut engine = Engine::default();
+            assert!(engine.save(FileFormat::Csv, 0).is_err());
+            assert!(engine.open(&asked(name, &set)));
+            engine.advance(20);
+            let so_far = saved(&engine, FileFormat::Csv);
+            assert!(table.starts_with(&so_far) && so_far.len() < table.len(), "{name}");
+            run(&mut engine, 1000);
+            assert!(saved(&engine, FileFormat::Csv) == table, "{name}");
+            assert!(saved(&engine, FileFormat::Glb) == motion, "{name}");
         }
     }
 

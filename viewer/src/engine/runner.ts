@@ -3,8 +3,8 @@
 // A run goes on until it ends, fails, or another is accepted in its place. A trap ends the instance of the engine; the
 // next scene that is asked for gets a new one of the same compiled module.
 
-import type { Asked, Frame, FromWorker, ToWorker } from "./messages";
-import { Engine, type Exports } from "./module";
+import type { Asked, Format, FromWorker, ToWorker } from "./messages";
+import { Engine, type Exports, Refusal } from "./module";
 import { Slice } from "./slice";
 
 /** Frames are gathered for so long before they are sent [ms]. */
@@ -48,6 +48,9 @@ export class Runner {
       case "open":
         this.open(message.id, message.asked);
         break;
+      case "save":
+        this.save(message.id, message.format);
+        break;
       case "pause":
       case "resume":
         this.paused = message.type === "pause";
@@ -90,6 +93,18 @@ export class Runner {
     this.goOn();
   }
 
+  private save(id: number, format: Format): void {
+    try {
+      if (!this.engine) throw new Refusal("There is no run to be saved.");
+      this.tell({ type: "saved", id, parts: this.engine.save(format) });
+    } catch (error) {
+      const trapped = !(error instanceof Refusal);
+      const message = trapped ? this.wordsOfTrap(error) : error.message;
+      this.tell({ type: "unsaved", id, message });
+      if (trapped) this.tell({ type: "trapped", message });
+    }
+  }
+
   /** Has the next slice run once the messages that wait are heard. */
   private goOn(): void {
     if (this.waits || !this.going || this.paused) return;
@@ -125,10 +140,10 @@ export class Runner {
   }
 
   private tell(message: FromWorker): void {
-    const frames: Frame[] = "frames" in message ? message.frames : [];
+    const contents = "frames" in message ? message.frames : "parts" in message ? message.parts : [];
     this.host.tell(
       message,
-      frames.filter((frame) => typeof frame !== "string"),
+      contents.filter((content) => typeof content !== "string"),
     );
   }
 

@@ -7,6 +7,7 @@ import { h } from "../ui/dom";
 import { searchOf } from "./address";
 import { Editor } from "./editor";
 import type { GalleryScene, Hashes } from "./gallery";
+import { SaveButtons } from "./save";
 import { Verdict } from "./verdict";
 
 export class Desk implements Surroundings {
@@ -26,7 +27,11 @@ export class Desk implements Surroundings {
     this.text = subject.text;
     this.editor = new Editor(subject.text, (text) => run.run(text));
     this.scene = this.editor.element;
-    this.foot = this.verdict.element;
+    const saving = new SaveButtons(
+      () => run.shown?.name ?? subject.name,
+      (format) => run.save(format),
+    );
+    this.foot = h("div", { class: "foot" }, this.verdict.element, saving.element);
   }
 
   begun({ header }: Recording): boolean {

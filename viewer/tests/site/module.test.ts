@@ -1,13 +1,17 @@
-// The engine of a built site in Node: GYRATION_SITE is its folder. Hashes must be those of the native program.
+// The engine of a built site in Node: GYRATION_SITE is its folder. Hashes must be those of the native program,
+// GYRATION_BIN.
 
-import { readFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { describe, expect, it } from "vitest";
-import type { Asked } from "../../src/engine/messages";
+import { type Asked, FORMATS } from "../../src/engine/messages";
 import { Engine, type Exports } from "../../src/engine/module";
 import type { GalleryScene } from "../../src/site/gallery";
 
 const SITE = process.env.GYRATION_SITE;
+const PROGRAM = process.env.GYRATION_BIN;
 
 interface Told {
   type: string;
@@ -45,6 +49,28 @@ describe.skipIf(!SITE)("the engine", () => {
     it(`gets_every_number_of_${name}`, { timeout: 300_000 }, () => {
       expect(told({ name, scene: text(name), set: [] }).hash).toBe(hashes[name]);
     });
+
+  it.skipIf(!PROGRAM)("saves_the_bytes_that_the_program_exports", { timeout: 120_000 }, () => {
+    const folder = mkdtempSync(join(tmpdir(), "gyration-saved-"));
+    for (const [name, end] of [
+      ["dice", "time.end=0.3"],
+      ["soft-collision", "time.end=0.1"],
+    ]) {
+      const running = engine();
+      expect(running.open({ name, scene: text(name), set: [end] })).toBe(true);
+      while (running.advance(5000)) running.frames();
+      const recording = join(folder, name);
+      const native = (...words: string[]) => execFileSync(PROGRAM ?? "", words, { stdio: "ignore" });
+      native("run", name, "--set", end, "--quiet", "-o", recording);
+      for (const format of FORMATS) {
+        const file = `${recording}.${format}`;
+        native("export", recording, "-o", file);
+        const saved = Buffer.concat(running.save(format).map((part) => Buffer.from(part)));
+        expect(saved.equals(readFileSync(file)), `${name}.${format}`).toBe(true);
+      }
+    }
+    rmSync(folder, { recursive: true });
+  });
 
   it("does_what_asks_for_threads_on_one", () => {
     const [one, four] = [1, 4].map((threads) => ["time.end=0.05", `solver.threads=${threads}`]);

@@ -104,6 +104,29 @@ describe.skipIf(!SITE)("the site", () => {
     await close();
   });
 
+  it("saves_the_run_as_a_table_and_as_an_animation_also_by_keys", async () => {
+    const { page, problems, close } = await opened(`${site}?scene=bounce&set=time.end=0.1`);
+    await expect.poll(() => verdict(page)).toMatch(/^hash [0-9a-f]{16}$/);
+    const saved = async (name: RegExp) => {
+      const coming = page.waitForEvent("download");
+      await page.getByRole("group", { name: "save" }).getByRole("button", { name }).press("Enter");
+      const file = await coming;
+      return [file.suggestedFilename(), readFileSync(await file.path())] as const;
+    };
+    const [table, text] = await saved(/table/);
+    expect(table).toBe("bounce.csv");
+    // A line of names, and one each hundredth of a second.
+    expect(text.toString().split("\n")).toHaveLength(1 + 11 + 1);
+    const [motion, bytes] = await saved(/animation/);
+    expect(motion).toBe("bounce.glb");
+    expect(bytes.subarray(0, 4).toString()).toBe("glTF");
+    await expect
+      .poll(() => page.locator(".save [role=status]").textContent())
+      .toMatch(/^bounce\.glb: .* MB$/);
+    expect(problems).toEqual([]);
+    await close();
+  });
+
   it("pauses_and_resumes", async () => {
     const { page, problems, close } = await opened(`${site}?scene=shaker&set=time.end=600`);
     await page.getByRole("tab", { name: "Sliders" }).click();

@@ -69,6 +69,7 @@ class FakeEngine {
   private scene = "";
   private slices = 0;
   private out: Uint8Array = new Uint8Array(0);
+  private kept: Uint8Array = new Uint8Array(0);
   input = () => 64;
   open = (length: number) => {
     const asked = JSON.parse(new TextDecoder().decode(new Uint8Array(this.memory.buffer, 64, length)));
@@ -95,6 +96,17 @@ class FakeEngine {
     this.out = new Uint8Array(0);
     return length;
   };
+  /** Two parts of a table; no other format. */
+  save = (format: number, part: number) => {
+    if (this.scene === "late trap") throw new Error("unreachable");
+    this.kept = new TextEncoder().encode(format === 0 ? ["t,", "x"][part] : "no such format");
+    return format > 0 ? 2 : part < 2 ? 1 : 0;
+  };
+  saved = () => {
+    new Uint8Array(this.memory.buffer, 3072, this.kept.length).set(this.kept);
+    return 3072;
+  };
+  saved_len = () => this.kept.length;
   message = () => {
     new Uint8Array(this.memory.buffer, 1024, 5).set(new TextEncoder().encode("oh no"));
     return 1024;
@@ -146,6 +158,25 @@ describe("the runner", () => {
     expect(slices).toHaveLength(0);
     const frames = told.flatMap((message) => (message.type === "frames" ? message.frames : []));
     expect(JSON.parse(frames.at(-1) as string).time).toBe(5);
+  });
+
+  it("hands_a_run_over_part_by_part_and_goes_on_where_that_is_refused", async () => {
+    const { told, hear, open, slice, instances } = running();
+    await hear({ type: "load", engine: "engine.wasm" });
+    await hear({ type: "save", id: 1, format: "csv" });
+    expect(told.at(-1)).toMatchObject({ type: "unsaved", id: 1 });
+    await open(1, "good");
+    await hear({ type: "save", id: 2, format: "csv" });
+    const { parts } = told.at(-1) as { parts: ArrayBuffer[] };
+    expect(parts.map((part) => new TextDecoder().decode(part))).toEqual(["t,", "x"]);
+    await hear({ type: "save", id: 3, format: "glb" });
+    expect(told.at(-1)).toEqual({ type: "unsaved", id: 3, message: "no such format" });
+    slice();
+    expect([told.at(-1)?.type, instances()]).toEqual(["frames", 1]);
+    await open(2, "late trap");
+    await hear({ type: "save", id: 4, format: "csv" });
+    expect(told.at(-2)).toEqual({ type: "unsaved", id: 4, message: "The engine has failed: oh no" });
+    expect(told.at(-1)).toEqual({ type: "trapped", message: "The engine has failed: oh no" });
   });
 
   it("tells_the_words_of_a_trap_and_runs_the_next_scene_in_a_new_instance", async () => {
