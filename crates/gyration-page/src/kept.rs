@@ -1,4 +1,5 @@
-//! The run so far as its scene records it, to be saved: the files are those that `gyration export` makes of a recording.
+//! The run so far as its scene records it, to be saved: the files are those that `gyration export` makes of a
+//! recording.
 
 use crate::watched::ScenePlaces;
 use gyration_record::export::{CsvTable, gltf};

@@ -1,5 +1,6 @@
 //! A scene that runs slice by slice, as it is asked for, and what it has to tell.
 
+use gyration_files::GivenFiles;
 use gyration_page::store::{Cursor, Message, Store};
 use gyration_page::{FileFormat, FirstRow, KeptRun, SceneHash, WatchedRun, finish, progress};
 use gyration_record::RecordError;
@@ -8,7 +9,6 @@ use gyration_sim::events::Event;
 use gyration_sim::{Monitor, Outcome, Progress, Provenance, Reason, Simulation, Sink};
 use serde::Deserialize;
 use serde_json::{Value, json};
-use std::path::Path;
 
 /// What is to be run.
 #[derive(Debug, Deserialize)]
@@ -41,6 +41,8 @@ pub struct Engine {
     run: Option<Run>,
     /// The rows of the run that began last, also once it is over.
     kept: Option<KeptRun>,
+    /// What scenes may name.
+    files: GivenFiles,
 }
 
 /// A run under way.
@@ -50,6 +52,11 @@ struct Run {
 }
 
 impl Engine {
+    /// Takes a file that scenes may name from now on.
+    pub fn give(&mut self, name: &str, content: Vec<u8>) {
+        self.files.give(name, content);
+    }
+
     /// Begins what a text in JSON asks for, in the place of the run before; else that goes on, and why is among the
     /// messages.
     pub fn open(&mut self, asked: &[u8]) -> bool {
@@ -73,7 +80,7 @@ impl Engine {
 
     fn begin(&mut self, asked: &Asked) -> Result<(Run, Option<KeptRun>), String> {
         let name = format!("{}.toml", asked.name);
-        let scene = Scene::parse(&name, &asked.scene, Path::new(""), &asked.set);
+        let scene = Scene::among(&name, &asked.scene, self.files.clone().into(), &asked.set);
         let scene = scene.and_then(gyration_sim::complete).map_err(|errors| errors.to_string())?;
         let watched = WatchedRun::of(&scene, &provenance());
         let mut first = FirstRow::default();
@@ -287,6 +294,34 @@ mod tests {
             assert!(saved(&engine, FileFormat::Csv) == table, "{name}");
             assert!(saved(&engine, FileFormat::Glb) == motion, "{name}");
         }
+    }
+
+    #[test]
+    fn meshes_and_tables_are_found_among_the_files_that_were_given() {
+        let text = |extra: &str| {
+            let text = gyration_scene::gallery_scene("bounce").unwrap();
+            let lines = text.lines().map(|line| match line.starts_with("shape =") {
+                true => "shape = { mesh = { file = \"parts/wedge.obj\" } }",
+                false => line,
+            });
+            lines.collect::<Vec<_>>().join("\n").replace("[[body]]", &format!("[[body]]\n{extra}"))
+        };
+        let ask =
+            |text: String| json!({ "name": "own", "scene": text, "set": ["time.end=0.01"] }).to_string().into_bytes();
+        let mut engine = Engine::default();
+        assert!(!engine.open(&ask(text(""))));
+        let refused = texts(&engine.frames()).pop().unwrap();
+        let words = refused["message"].as_str().unwrap();
+        assert!(words.contains("parts/wedge.obj: there is no such file in this page yet"), "{words}");
+        assert!(words.contains("fix: drop the file on the page"), "{words}");
+        let wedge = "v 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+        engine.give("wedge.obj", wedge.into());
+        assert!(engine.open(&ask(text(""))), "{:?}", texts(&engine.frames()));
+        assert_eq!(run(&mut engine, 1000).0["type"], "done");
+        assert!(!engine.open(&ask(text("copies = { places = \"places.csv\" }"))));
+        assert!(texts(&engine.frames()).pop().unwrap()["message"].as_str().unwrap().contains("fix: drop the file"));
+        engine.give("places.csv", b"x,y,z\n0,0,0\n1,0,0\n".to_vec());
+        assert!(engine.open(&ask(text("copies = { places = \"places.csv\" }"))), "{:?}", texts(&engine.frames()));
     }
 
     #[test]

@@ -37,6 +37,15 @@ pub extern "C" fn input(len: usize) -> *mut u8 {
     })
 }
 
+/// Takes a file that scenes may name: the first bytes of the input are its name, those behind them its content.
+#[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
+pub extern "C" fn file(name: usize, content: usize) {
+    let input = INPUT.take();
+    let (name, rest) = input.split_at(name.min(input.len()));
+    let content = rest.get(..content).unwrap_or(rest).to_vec();
+    ENGINE.with_borrow_mut(|engine| engine.give(&String::from_utf8_lossy(name), content));
+}
+
 /// Begins what the first bytes of the input ask for; 1 if that is refused.
 #[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
 pub extern "C" fn open(len: usize) -> u32 {
@@ -67,8 +76,8 @@ pub extern "C" fn output_len() -> usize {
     OUTPUT.with_borrow(Vec::len)
 }
 
-/// Makes a part of the run so far as a file, of format 0 (CSV) or 1 (GLB); 0 behind the last one, 1 if it is there, 2 if
-/// the words of a failure are.
+/// Makes a part of the run so far as a file, of format 0 (CSV) or 1 (GLB); 0 behind the last one, 1 if it is there, 2
+/// if the words of a failure are.
 #[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
 pub extern "C" fn save(format: u32, part: usize) -> u32 {
     let format = if format == 0 { FileFormat::Csv } else { FileFormat::Glb };

@@ -3,6 +3,7 @@
 //! | export | what |
 //! |---|---|
 //! | `input(len)` | room for so many bytes of input |
+//! | `file(name, content)` | takes a file that scenes may name: so many bytes of its name, so many of its content |
 //! | `open(len)` | begins what the input says, `{ "name", "scene", "set" }` in JSON; 0, or 1 if it is refused |
 //! | `advance(evaluations)` | runs for about so many evaluations; 0 goes on, 1 has ended, 2 failed |
 //! | `output()`, `output_len()` | the messages since the last call, as frames ([`Engine::frames`]) |

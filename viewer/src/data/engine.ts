@@ -51,6 +51,8 @@ export class EngineRun implements Source {
   private readonly pending = new Map<number, Pending>();
   /** Files that are waited for, by number. */
   private readonly savings = new Map<number, Saving>();
+  /** Files that were handed over, for every worker. */
+  private readonly files = new Map<string, ArrayBuffer>();
   private lastId = 0;
   private lastSaving = 0;
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -77,10 +79,16 @@ export class EngineRun implements Source {
   /** Nothing to do: the engine is never lost. */
   reconnect(): void {}
 
+  /** Hands over a file that scenes may name, for those that are run from now on. */
+  give(name: string, content: ArrayBuffer): void {
+    this.files.set(name, content);
+    for (const worker of this.workers()) worker.postMessage({ type: "file", name, content });
+  }
+
   /** Runs another text, without overrides; in the program's words why it is refused, or null. */
-  run(scene: string): Promise<string | null> {
+  run(scene: string, name = (this.shown ?? this.first).name): Promise<string | null> {
     return new Promise((resolve) => {
-      const asked = { ...this.first, scene, set: [] };
+      const asked = { name, scene, set: [] };
       this.ask({ asked, answer: (refusal) => resolve(refusal?.message ?? null) });
     });
   }
@@ -144,6 +152,7 @@ export class EngineRun implements Source {
       if (this.workers().includes(worker)) this.lose(worker, event.message || "its worker cannot be started");
     };
     worker.postMessage({ type: "load", engine: this.module ?? this.address });
+    for (const [name, content] of this.files) worker.postMessage({ type: "file", name, content });
     return worker;
   }
 

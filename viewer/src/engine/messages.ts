@@ -16,6 +16,8 @@ export type Format = (typeof FORMATS)[number];
 export type ToWorker =
   /** The first message: where the engine is, or the engine itself. */
   | { type: "load"; engine: string | WebAssembly.Module }
+  /** A file that scenes may name, for all that are opened from now on. */
+  | { type: "file"; name: string; content: ArrayBuffer }
   | { type: "open"; id: number; asked: Asked }
   /** Asks for the run so far as a file. */
   | { type: "save"; id: number; format: Format }

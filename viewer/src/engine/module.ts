@@ -9,6 +9,8 @@ export interface Exports {
   memory: { buffer: ArrayBuffer };
   /** Room for so many bytes of input. */
   input(length: number): number;
+  /** Takes the input for a file that scenes may name: so many bytes of its name, then so many of its content. */
+  file(name: number, content: number): void;
   /** Reads the input as JSON; 0: a run has begun, 1: refused. */
   open(length: number): number;
   /** Runs for about so many evaluations of the rates; 0: goes on, 1: has ended, 2: failed. */
@@ -48,6 +50,16 @@ export function framesIn(bytes: Uint8Array): Frame[] {
 
 export class Engine {
   constructor(private readonly exports: Exports) {}
+
+  /** Hands over a file that scenes may name, in the place of one of the same name. */
+  give(name: string, content: ArrayBuffer): void {
+    const [head, body] = [new TextEncoder().encode(name), new Uint8Array(content)];
+    const length = head.length + body.length;
+    const input = this.bytes(this.exports.input(length), length);
+    input.set(head);
+    input.set(body, head.length);
+    this.exports.file(head.length, body.length);
+  }
 
   /** Begins a run of a scene; false where it is refused. */
   open(asked: Asked): boolean {

@@ -24,6 +24,8 @@ export interface Host {
 export class Runner {
   private module: WebAssembly.Module | null = null;
   private engine: Engine | null = null;
+  /** Files that were handed over, for every instance of the engine. */
+  private readonly files = new Map<string, ArrayBuffer>();
   private slice = new Slice();
   private going = false;
   private paused = false;
@@ -44,6 +46,10 @@ export class Runner {
     switch (message.type) {
       case "load":
         await this.load(message.engine);
+        break;
+      case "file":
+        this.files.set(message.name, message.content);
+        this.engine?.give(message.name, message.content);
         break;
       case "open":
         this.open(message.id, message.asked);
@@ -77,7 +83,7 @@ export class Runner {
     if (!this.module) return;
     this.tell({ type: "heard", id });
     try {
-      this.engine ??= new Engine(this.host.instantiate(this.module));
+      this.engine ??= this.started(this.module);
       const accepted = this.engine.open(asked);
       if (accepted) {
         this.going = true;
@@ -91,6 +97,12 @@ export class Runner {
       this.tell({ type: "opened", id, accepted: false, frames: [frame] });
     }
     this.goOn();
+  }
+
+  private started(module: WebAssembly.Module): Engine {
+    const engine = new Engine(this.host.instantiate(module));
+    for (const [name, content] of this.files) engine.give(name, content);
+    return engine;
   }
 
   private save(id: number, format: Format): void {

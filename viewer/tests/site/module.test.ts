@@ -13,6 +13,9 @@ import type { GalleryScene } from "../../src/site/gallery";
 const SITE = process.env.GYRATION_SITE;
 const PROGRAM = process.env.GYRATION_BIN;
 
+/** A corner of a cube, cut off. */
+const WEDGE = "v 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
 interface Told {
   type: string;
   hash?: string;
@@ -30,8 +33,10 @@ describe.skipIf(!SITE)("the engine", () => {
   const text = (name: string) => scenes.find((scene) => scene.name === name)?.text ?? "";
 
   /** Runs a scene; the last text that is told. */
-  function told(asked: Asked): Told {
+  function told(asked: Asked, files: Record<string, string> = {}): Told {
     const running = engine();
+    for (const [name, content] of Object.entries(files))
+      running.give(name, new TextEncoder().encode(content).buffer);
     let last: Told = { type: "" };
     const listen = () => {
       for (const frame of running.frames()) if (typeof frame === "string") last = JSON.parse(frame);
@@ -93,10 +98,12 @@ describe.skipIf(!SITE)("the engine", () => {
     expect(told({ name: "box", scene, set: [] })).toMatchObject({ type: "done" });
   });
 
-  it("says_in_words_that_there_are_no_files", () => {
-    const scene = text("bounce").replace(/shape = .*/, 'shape = { mesh = { file = "rock.stl" } }');
-    const { type, message } = told({ name: "bounce", scene, set: [] });
+  it("asks_for_a_mesh_by_name_and_runs_with_its_bytes", () => {
+    const scene = text("bounce").replace(/shape = .*/, 'shape = { mesh = { file = "parts/wedge.obj" } }');
+    const asked = { name: "bounce", scene, set: ["time.end=0.1"] };
+    const { type, message } = told(asked);
     expect(type).toBe("error");
-    expect(message).toContain("rock.stl");
+    expect(message).toMatch(/parts\/wedge\.obj[\s\S]*drop the file on the page/);
+    expect(told(asked, { "wedge.obj": WEDGE }).type).toBe("done");
   });
 });

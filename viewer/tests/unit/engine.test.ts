@@ -68,6 +68,18 @@ describe("a run of the engine", () => {
     expect(told.calls).toEqual(["progress 0 running"]);
   });
 
+  it("hands_files_that_scenes_name_to_every_worker", async () => {
+    const content = new ArrayBuffer(3);
+    run.give("rock.stl", content);
+    expect(workers[0].heard.at(-1)).toEqual({ type: "file", name: "rock.stl", content });
+    void run.run("text of mine", "mine");
+    vi.advanceTimersByTime(HANGS_MS);
+    expect(workers[1].heard.slice(1)).toEqual([
+      { type: "file", name: "rock.stl", content },
+      { type: "open", id: 2, asked: { name: "mine", scene: "text of mine", set: [] } },
+    ]);
+  });
+
   it("hands_files_of_its_run_over_and_says_why_there_is_none", async () => {
     const table = run.save("csv");
     expect(workers[0].heard.at(-1)).toEqual({ type: "save", id: 1, format: "csv" });
