@@ -122,6 +122,11 @@ export class App implements Listener {
     await source.start(this);
   }
 
+  /** Opens a panel. */
+  open(panel: string): void {
+    this.tabs.open(panel);
+  }
+
   /** Gives the run its sliders. */
   private offer(control: Control): void {
     const sliders = new Sliders((overrides) => control.restart(overrides));

@@ -2,13 +2,16 @@
 //!
 //! [`open`] opens a regular file and nothing else: to open a pipe waits for whoever writes into it, for ever if nobody
 //! does. [`printable`] takes from a text what a terminal would obey. [`in_words`] says why the system refuses
-//! something, [`line_of_row`] where a row of a table stands. [`check`] has the checksums by which damage is told.
+//! something, [`line_of_row`] where a row of a table stands. [`check`] has the checksums by which damage is told,
+//! [`Files`] finds what a scene names.
 
 #![forbid(unsafe_code)]
 
+mod beside;
 pub mod check;
 mod words;
 
+pub use beside::{Files, GivenFiles};
 pub use words::in_words;
 
 use std::borrow::Cow;

@@ -3,6 +3,7 @@
 //! ```text
 //! recording ─→ header (JSON), blobs (arrays)             carried by a server, or in the page itself
 //! scene ─→ WatchedRun ─→ Store ─→ messages of a cursor   carried by a websocket, or by a worker of the page
+//!                    └→ KeptRun ─→ files                 of a page alone
 //! ```
 //!
 //! [`header`] says what a recording is, [`blob`] how the numbers are laid out, [`store`] what a run has published. No
@@ -14,7 +15,9 @@ pub mod besides;
 pub mod binary;
 pub mod blob;
 pub mod header;
+mod kept;
 pub mod store;
 mod watched;
 
+pub use kept::{FileFormat, KeptRun};
 pub use watched::{FirstRow, SceneHash, WatchedRun, finish, progress};

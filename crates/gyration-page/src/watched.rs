@@ -3,6 +3,7 @@
 use crate::besides::recorded_besides;
 use crate::blob;
 use crate::header::{ArrayEntry, Header};
+use crate::kept::KeptRun;
 use crate::store::Store;
 use gyration_record::{ArraySpec, Layout, RecordError, RowHash};
 use gyration_scene::Scene;
@@ -19,7 +20,7 @@ pub struct WatchedRun<'a> {
     /// The run.
     pub job: Job<'a>,
     /// What the scene records.
-    recorded: Vec<ArraySpec>,
+    recorded: Layout,
     layout: Layout,
     /// The samples kept, and those of the scene, if these would be too many.
     thinned: Option<(usize, usize)>,
@@ -28,15 +29,25 @@ pub struct WatchedRun<'a> {
 /// The hash of the rows as `gyration run` records them, from those that the page is given.
 pub struct SceneHash {
     hash: RowHash,
-    /// Where the arrays of the scene stand in a row.
-    places: Vec<Range<usize>>,
+    places: ScenePlaces,
+}
+
+/// Where the arrays of the scene stand in a row that the page is given.
+#[derive(Debug, Clone)]
+pub(crate) struct ScenePlaces(Vec<Range<usize>>);
+
+impl ScenePlaces {
+    /// The numbers of the scene in a row.
+    pub(crate) fn of<'a>(&'a self, row: &'a [f64]) -> impl Iterator<Item = &'a [f64]> {
+        self.0.iter().map(|place| &row[place.clone()])
+    }
 }
 
 impl<'a> WatchedRun<'a> {
     /// Of a scene, by this program.
     pub fn of(scene: &'a Scene, provenance: &Provenance) -> Self {
         let mut job = Job::of(scene, provenance);
-        let recorded = job.layout().arrays;
+        let recorded = job.layout();
         for quantity in recorded_besides(job.model) {
             job.plan.extras = job.plan.extras.and(quantity);
         }
@@ -79,13 +90,23 @@ impl<'a> WatchedRun<'a> {
         if self.thinned.is_some() {
             return None;
         }
+        Some(SceneHash { hash: RowHash::default(), places: self.places()? })
+    }
+
+    /// The run before its first row, to be saved as far as it has got; what acts between two bodies is left out.
+    pub fn kept(&self) -> Option<KeptRun> {
+        let layout = Layout { ragged: None, ..self.recorded.clone() };
+        Some(KeptRun::new(self.job.scene_name(), layout, self.job.all_attributes(), self.places()?))
+    }
+
+    fn places(&self) -> Option<ScenePlaces> {
         let (mut all, mut end) = (Vec::new(), 0);
         for array in &self.layout.arrays {
             all.push((&array.name, end..end + array.row_len()));
             end += array.row_len();
         }
         let place = |array: &ArraySpec| Some(all.iter().find(|(name, _)| **name == array.name)?.1.clone());
-        Some(SceneHash { hash: RowHash::default(), places: self.recorded.iter().map(place).collect::<Option<_>>()? })
+        self.recorded.arrays.iter().map(place).collect::<Option<_>>().map(ScenePlaces)
     }
 }
 
@@ -107,7 +128,7 @@ impl SceneHash {
     /// Goes on with a row.
     pub fn add_row(&mut self, time: f64, row: &[f64]) {
         self.hash.add(&[time]);
-        self.places.iter().for_each(|place| self.hash.add(&row[place.clone()]));
+        self.places.of(row).for_each(|numbers| self.hash.add(numbers));
     }
 }
 

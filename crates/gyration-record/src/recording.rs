@@ -1,7 +1,8 @@
 //! Reading a recording, finished or not: its attributes, its arrays whole or by rows, its columns and events.
 //!
 //! What is read is what stood there when it was opened: rows that a writer adds later are not seen. A range of rows is
-//! read chunk by chunk, so that long runs pass through bounded memory; every chunk is held against its checksum.
+//! read chunk by chunk, so that long runs pass through bounded memory; every chunk is held against its checksum. A
+//! recording in memory answers as one on disk would.
 
 use crate::Attributes;
 use crate::array::{ArrayInfo, DataType};
@@ -10,17 +11,26 @@ use crate::chunks::{LastChunks, read_labels};
 use crate::disk;
 use crate::error::RecordError;
 use crate::event::Event;
-use crate::layout::START;
+use crate::layout::{Layout, START};
+use crate::memory::{Memory, Rows};
 use crate::metadata::Group;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// An open recording.
 #[derive(Debug, Clone)]
 pub struct Recording {
     path: PathBuf,
     group: Group,
-    chunks: LastChunks,
+    source: Source,
+}
+
+/// Where the numbers are.
+#[derive(Debug, Clone)]
+enum Source {
+    Disk(LastChunks),
+    Memory(Arc<Memory>),
 }
 
 /// Numbers with their shape, last dimension fastest.
@@ -42,7 +52,22 @@ impl Recording {
     }
 
     pub(crate) fn of_group(path: &Path, group: Group) -> Self {
-        Self { path: path.to_path_buf(), group, chunks: LastChunks::default() }
+        Self { path: path.to_path_buf(), group, source: Source::Disk(LastChunks::default()) }
+    }
+
+    /// The recording that a disk would hold of some rows, without entries of samples; `name` stands in errors. It has
+    /// no checkpoint.
+    ///
+    /// # Errors
+    /// `Layout`, `RowLength`.
+    pub fn in_memory(
+        name: &Path,
+        layout: &Layout,
+        attributes: Attributes,
+        rows: Arc<Rows>,
+    ) -> Result<Self, RecordError> {
+        let (memory, group) = Memory::new(layout, attributes, rows)?;
+        Ok(Self { path: name.to_path_buf(), group, source: Source::Memory(Arc::new(memory)) })
     }
 
     /// The recording's path.
@@ -200,7 +225,10 @@ impl Recording {
         let Some(array) = self.arrays().iter().find(labelled) else {
             return Ok(None);
         };
-        read_labels(array, &self.path).map(Some)
+        match &self.source {
+            Source::Disk(_) => read_labels(array, &self.path).map(Some),
+            Source::Memory(memory) => Ok(Some(memory.labels(array))),
+        }
     }
 
     /// Names of the kinds of events, by code.
@@ -241,13 +269,17 @@ impl Recording {
         if rows.start > rows.end || rows.end > count {
             return Err(RecordError::NoSuchRows { from: rows.start, to: rows.end, rows: count });
         }
+        let chunks = match &self.source {
+            Source::Disk(chunks) => chunks,
+            Source::Memory(memory) => return Ok(memory.bytes(array, rows)),
+        };
         let row_bytes = array.row_len() * array.data_type.size();
         let mut bytes = Vec::new();
         let mut from = rows.start;
         while from < rows.end {
             let index = from / chunk_rows;
             let to = rows.end.min((index + 1) * chunk_rows);
-            let chunk = self.chunks.read(&self.path, array, index)?;
+            let chunk = chunks.read(&self.path, array, index)?;
             let first = from - index * chunk_rows;
             bytes.extend(&chunk[first * row_bytes..][..(to - from) * row_bytes]);
             from = to;

@@ -7,4 +7,5 @@ mod contract;
 mod corpus;
 mod flips;
 mod kill;
+mod memory;
 mod python;

@@ -2,13 +2,12 @@
 
 use crate::file::CopyGrid;
 use crate::quantity::si;
-use crate::read;
+use crate::read::{self, NamedFile};
 use crate::suggest;
 use crate::table::{self, RowFault, TableFault};
 use gyration::kinematics::Quaternion;
 use gyration::tensor::Vec3;
 use gyration_files::line_of_row;
-use std::path::Path;
 
 /// The most copies of a body.
 pub(crate) const MOST_COPIES: usize = 1_000_000;
@@ -48,12 +47,12 @@ const IN_WORDS: &str = "`x,y,z`, `x,y,z,qw,qx,qy,qz`, and so on with `vx,vy,vz` 
 /// # Errors
 /// [`TableFault`] with the line: a file that cannot be read, a column that is missing or not known, what is no number,
 /// a quaternion that is zero, no row.
-pub(crate) fn read_places(path: &Path) -> Result<Vec<CopyPlace>, TableFault> {
-    let bytes = read::bytes(path)?;
+pub(crate) fn read_places(file: NamedFile<'_>) -> Result<Vec<CopyPlace>, TableFault> {
+    let bytes = read::named(file)?;
     let content = table::content(&bytes);
     rows(content).map_err(|(start, reason)| {
         let line = if start < content.len() { line_of_row(content, start) } else { 1 };
-        TableFault::Malformed { columns: IN_WORDS.to_owned(), path: path.to_owned(), line, reason }
+        TableFault::Malformed { columns: IN_WORDS.to_owned(), path: file.0.path(file.1), line, reason }
     })
 }
 

@@ -13,16 +13,17 @@ use gyration::fluid::Form;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Vec3;
+use gyration_files::Files;
 use serde_json::Value;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A scene without errors, with its text, its resolved form and its model.
 #[derive(Debug, Clone)]
 pub struct Scene {
     pub(crate) name: String,
     pub(crate) text: String,
-    pub(crate) base: PathBuf,
+    pub(crate) files: Files,
     pub(crate) overrides: Vec<Override>,
     pub(crate) file: SceneFile,
     /// What contacts of these indices do, instead of laws.
@@ -47,9 +48,9 @@ impl Scene {
         &self.text
     }
 
-    /// The folder to which paths in it are relative.
+    /// The folder to which paths in it are relative; empty where its files were handed over.
     pub fn base(&self) -> &Path {
-        &self.base
+        self.files.folder()
     }
 
     /// The overrides, in their order, as they would be written.

@@ -3,7 +3,6 @@
 //! Besides the standard keywords it has `unit` (the SI unit of a quantity; a string must have a unit of the same
 //! dimension).
 
-use crate::file::SceneFile;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema};
@@ -16,7 +15,13 @@ pub fn schema() -> Value {
 }
 
 /// The schema, made once.
-pub(crate) static SCHEMA: LazyLock<Value> = LazyLock::new(schema_of::<SceneFile>);
+#[cfg(not(written_schema))]
+pub(crate) static SCHEMA: LazyLock<Value> = LazyLock::new(schema_of::<crate::file::SceneFile>);
+
+/// The schema, as the program has written it before this was built.
+#[cfg(written_schema)]
+pub(crate) static SCHEMA: LazyLock<Value> =
+    LazyLock::new(|| serde_json::from_str(include_str!(env!("GYRATION_SCHEMA"))).unwrap_or_default());
 
 /// The JSON Schema (draft 2020-12) of a type of file, in the manner of that of a scene.
 pub fn schema_of<T: JsonSchema>() -> Value {

@@ -1,11 +1,11 @@
 //! Tables of numbers beside a scene: CSV files, with or without a line of names.
 
 use crate::error::ReadError;
-use crate::read;
+use crate::read::{self, NamedFile};
 use gyration::signal::{Interpolation, TableError, TensorTable};
 use gyration::tensor::Mat3;
-use gyration_files::{REMARK, line_of_row};
-use std::path::{Path, PathBuf};
+use gyration_files::{Files, REMARK, line_of_row};
+use std::path::PathBuf;
 
 /// A table that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -39,9 +39,9 @@ pub(crate) enum TableFault {
 
 impl TableFault {
     /// What to do.
-    pub(crate) fn help(&self) -> String {
+    pub(crate) fn help(&self, files: &Files) -> String {
         let help = match self {
-            Self::Unreadable(_) => "the path is relative to the folder of the scene",
+            Self::Unreadable(_) => files.help(),
             Self::Malformed { columns, .. } => return format!("write rows of {columns}"),
             Self::Rows { source: TableError::NotSorted { .. }, .. } => "sort the rows by time, each time once",
             Self::Rows { source: TableError::NotFinite { .. }, .. } => "write finite numbers",
@@ -64,24 +64,36 @@ const NUMBER: [&str; 1] = [""];
 /// # Errors
 /// [`TableFault`] with the line: a file that cannot be read, a wrong number of columns, what is no number, times that
 /// do not increase.
-pub(crate) fn read_tensors(path: &Path, symbol: char, interpolation: Interpolation) -> Result<TensorTable, TableFault> {
-    read_table(path, symbol, &TENSOR, interpolation)
+pub(crate) fn read_tensors(
+    file: NamedFile<'_>,
+    symbol: char,
+    interpolation: Interpolation,
+) -> Result<TensorTable, TableFault> {
+    read_table(file, symbol, &TENSOR, interpolation)
 }
 
 /// The same for a table of vectors, which are the first columns of its tensors.
 ///
 /// # Errors
 /// As of [`read_tensors`].
-pub(crate) fn read_vectors(path: &Path, symbol: char, interpolation: Interpolation) -> Result<TensorTable, TableFault> {
-    read_table(path, symbol, &VECTOR, interpolation)
+pub(crate) fn read_vectors(
+    file: NamedFile<'_>,
+    symbol: char,
+    interpolation: Interpolation,
+) -> Result<TensorTable, TableFault> {
+    read_table(file, symbol, &VECTOR, interpolation)
 }
 
 /// The same for a table of numbers, which are the first entries of its tensors.
 ///
 /// # Errors
 /// As of [`read_tensors`].
-pub(crate) fn read_numbers(path: &Path, symbol: char, interpolation: Interpolation) -> Result<TensorTable, TableFault> {
-    read_table(path, symbol, &NUMBER, interpolation)
+pub(crate) fn read_numbers(
+    file: NamedFile<'_>,
+    symbol: char,
+    interpolation: Interpolation,
+) -> Result<TensorTable, TableFault> {
+    read_table(file, symbol, &NUMBER, interpolation)
 }
 
 /// Where a row begins, behind the one before it, and what is wrong with it.
@@ -106,17 +118,18 @@ pub(crate) fn records(content: &[u8]) -> impl Iterator<Item = Result<(usize, csv
 }
 
 fn read_table(
-    path: &Path,
+    file: NamedFile<'_>,
     symbol: char,
     entries: &[&str],
     interpolation: Interpolation,
 ) -> Result<TensorTable, TableFault> {
-    let bytes = read::bytes(path)?;
+    let bytes = read::named(file)?;
+    let path = file.0.path(file.1);
     let content = content(&bytes);
     let rows = rows(content, entries.len()).map_err(|(start, reason)| {
         let line = line_of_row(content, start);
         let names: Vec<String> = entries.iter().map(|entry| format!(", {symbol}{entry}")).collect();
-        TableFault::Malformed { columns: format!("`t{}`", names.concat()), path: path.to_owned(), line, reason }
+        TableFault::Malformed { columns: format!("`t{}`", names.concat()), path: path.clone(), line, reason }
     })?;
     TensorTable::new(rows.iter().map(|row| (row.time, row.value)).collect(), interpolation).map_err(|source| {
         let row = match source {
@@ -124,7 +137,7 @@ fn read_table(
             TableError::NotFinite { row } | TableError::NotSorted { row, .. } => row,
         };
         let line = rows.get(row - 1).map_or(1, |row| line_of_row(content, row.start));
-        TableFault::Rows { path: path.to_owned(), line, source }
+        TableFault::Rows { path: path.clone(), line, source }
     })
 }
 

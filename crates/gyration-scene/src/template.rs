@@ -16,6 +16,7 @@ use crate::scene::Scene;
 use crate::suggest;
 use crate::tree::Node;
 use crate::unknown::Unknown;
+use gyration_files::Files;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -23,7 +24,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Clone)]
 pub struct Template {
     document: Document,
-    base: PathBuf,
+    files: Files,
     /// The name of its file without folder and ending.
     stem: String,
 }
@@ -66,8 +67,16 @@ impl Template {
     /// # Errors
     /// All errors of its syntax. Behind one the tree is a guess: nothing more can be said about it.
     pub fn parse(name: &str, text: &str, base: &Path) -> Result<Self, SceneErrors> {
+        Self::among(name, text, base.into())
+    }
+
+    /// The same of a text that names some of these files.
+    ///
+    /// # Errors
+    /// As of [`Template::parse`].
+    pub fn among(name: &str, text: &str, files: Files) -> Result<Self, SceneErrors> {
         let document = read::document(name, text)?;
-        Ok(Self { document, base: base.to_owned(), stem: stem(name) })
+        Ok(Self { document, files, stem: stem(name) })
     }
 
     /// The scene with these overrides.
@@ -93,21 +102,21 @@ impl Template {
             read::apply(document.to_mut(), overrides, &mut diagnostics);
         }
         structure(&document.root, &RULES, &mut diagnostics);
-        let mut partial = PartialScene::new(&document, &self.base, &mut diagnostics);
+        let mut partial = PartialScene::new(&document, &self.files, &mut diagnostics);
         let mut reporter = Reporter::new(&document, &mut diagnostics);
         values(&partial, &mut reporter);
         let constants = partial.constants.clone();
-        let context = SceneContext::new(&partial, &document, &self.base, constants.as_ref());
+        let context = SceneContext::new(&partial, &document, &self.files, constants.as_ref());
         let said = |(index, contact): (usize, &Placed<Contact>)| Some((index, contact.value.from?));
         let behaviours = partial.contacts.iter().enumerate().filter_map(said).collect();
         let built = assemble(&mut partial, &context, &mut reporter);
         salvage(&document, &context, &mut diagnostics);
         match (partial.complete(), built) {
             (Some(file), Some((built, forms))) if diagnostics.is_empty() => {
-                let (name, text, base) = (self.stem.clone(), self.text().to_owned(), self.base.clone());
+                let (name, text, files) = (self.stem.clone(), self.text().to_owned(), self.files.clone());
                 let unknown = (!forms.is_empty() || built.waves.is_some())
                     .then(|| Box::new(Unknown { forms, document: document.into_owned() }));
-                Ok(Scene { name, text, base, overrides: overrides.to_vec(), file, behaviours, built, unknown })
+                Ok(Scene { name, text, files, overrides: overrides.to_vec(), file, behaviours, built, unknown })
             }
             _ => Err(document.errors(diagnostics)),
         }
@@ -141,9 +150,9 @@ impl Template {
         self.document.texts.first().map_or("", |text| &text.name)
     }
 
-    /// The folder that paths in it are relative to.
+    /// The folder that paths in it are relative to; empty where its files were handed over.
     pub fn base(&self) -> &Path {
-        &self.base
+        self.files.folder()
     }
 
     /// Its text, verbatim.
@@ -184,6 +193,14 @@ impl Scene {
     /// Everything that is wrong in it, in the order of the text.
     pub fn parse(name: &str, text: &str, base: &Path, overrides: &[String]) -> Result<Self, SceneErrors> {
         Template::parse(name, text, base)?.scene(&Override::parse_all(overrides))
+    }
+
+    /// The same of a text that names some of these files.
+    ///
+    /// # Errors
+    /// As of [`Scene::parse`].
+    pub fn among(name: &str, text: &str, files: Files, overrides: &[String]) -> Result<Self, SceneErrors> {
+        Template::among(name, text, files)?.scene(&Override::parse_all(overrides))
     }
 }
 

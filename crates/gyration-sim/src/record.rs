@@ -89,6 +89,11 @@ impl<'a> Job<'a> {
         }
     }
 
+    /// The name of its scene.
+    pub fn scene_name(&self) -> &str {
+        self.scene.name()
+    }
+
     /// Whether a recording is of this scene, whatever its `solver.max_wall_time` and `solver.threads`.
     pub fn is_recorded_in(&self, recording: &Attributes) -> bool {
         comparable(&self.all_attributes()) == comparable(recording)

@@ -1,14 +1,14 @@
 //! A scene that runs slice by slice, as it is asked for, and what it has to tell.
 
+use gyration_files::GivenFiles;
 use gyration_page::store::{Cursor, Message, Store};
-use gyration_page::{FirstRow, SceneHash, WatchedRun, finish, progress};
+use gyration_page::{FileFormat, FirstRow, KeptRun, SceneHash, WatchedRun, finish, progress};
 use gyration_record::RecordError;
 use gyration_scene::Scene;
 use gyration_sim::events::Event;
 use gyration_sim::{Monitor, Outcome, Progress, Provenance, Reason, Simulation, Sink};
 use serde::Deserialize;
 use serde_json::{Value, json};
-use std::path::Path;
 
 /// What is to be run.
 #[derive(Debug, Deserialize)]
@@ -39,6 +39,10 @@ pub struct Engine {
     store: Store,
     cursor: Cursor,
     run: Option<Run>,
+    /// The rows of the run that began last, also once it is over.
+    kept: Option<KeptRun>,
+    /// What scenes may name.
+    files: GivenFiles,
 }
 
 /// A run under way.
@@ -48,14 +52,19 @@ struct Run {
 }
 
 impl Engine {
+    /// Takes a file that scenes may name from now on.
+    pub fn give(&mut self, name: &str, content: Vec<u8>) {
+        self.files.give(name, content);
+    }
+
     /// Begins what a text in JSON asks for, in the place of the run before; else that goes on, and why is among the
     /// messages.
     pub fn open(&mut self, asked: &[u8]) -> bool {
         let begun = serde_json::from_slice::<Asked>(asked).map_err(|error| (error.to_string(), None));
         let begun = begun.and_then(|asked| self.begin(&asked).map_err(|words| (words, Some(asked.set))));
         match begun {
-            Ok(run) => {
-                self.run = Some(run);
+            Ok((run, kept)) => {
+                (self.run, self.kept) = (Some(run), kept);
                 true
             }
             Err((message, set)) => {
@@ -69,29 +78,29 @@ impl Engine {
         }
     }
 
-    fn begin(&mut self, asked: &Asked) -> Result<Run, String> {
+    fn begin(&mut self, asked: &Asked) -> Result<(Run, Option<KeptRun>), String> {
         let name = format!("{}.toml", asked.name);
-        let scene = Scene::parse(&name, &asked.scene, Path::new(""), &asked.set);
+        let scene = Scene::among(&name, &asked.scene, self.files.clone().into(), &asked.set);
         let scene = scene.and_then(gyration_sim::complete).map_err(|errors| errors.to_string())?;
         let watched = WatchedRun::of(&scene, &provenance());
         let mut first = FirstRow::default();
         let simulation = watched.begun(&mut first)?;
         watched.publish(&mut self.store);
-        let mut hash = watched.hash();
+        let (mut hash, mut kept) = (watched.hash(), watched.kept());
         if let Some((time, row)) = first.0 {
-            let told = Publisher { store: &mut self.store, hash: &mut hash }.row(time, &row);
+            let told = Publisher { store: &mut self.store, hash: &mut hash, kept: &mut kept }.row(time, &row);
             told.map_err(|error| error.to_string())?;
         }
-        Ok(Run { simulation, hash })
+        Ok((Run { simulation, hash }, kept))
     }
 
     /// Goes on for so many evaluations of the rates, and some more until a step is whole.
     pub fn advance(&mut self, evaluations: u64) -> Standing {
-        let Self { store, run: under_way, .. } = self;
+        let Self { store, run: under_way, kept, .. } = self;
         let Some(run) = under_way else { return Standing::Ended };
         let most = run.simulation.statistics().rate_evaluations.saturating_add(evaluations);
         let mut slice = Slice { most, progress: None };
-        let ran = run.simulation.run(&mut Publisher { store, hash: &mut run.hash }, &mut slice);
+        let ran = run.simulation.run(&mut Publisher { store, hash: &mut run.hash, kept }, &mut slice);
         match (ran, slice.progress) {
             (Ok(outcome), Some(progress)) if is_asked(&outcome) => {
                 store.progress(progress);
@@ -108,6 +117,15 @@ impl Engine {
                 Standing::Failed
             }
         }
+    }
+
+    /// A part of the run so far as a file, from zero; none behind the last one.
+    ///
+    /// # Errors
+    /// Words for the reader.
+    pub fn save(&self, format: FileFormat, part: usize) -> Result<Option<Vec<u8>>, String> {
+        let kept = self.kept.as_ref().ok_or("There is no run to be saved.")?;
+        kept.part(format, part).map_err(|error| error.to_string())
     }
 
     /// The messages since the last call, as frames: u32 kind (0 text, 1 binary), u32 length, the bytes, zeros up to a
@@ -147,10 +165,11 @@ fn is_asked(outcome: &Outcome) -> bool {
     matches!(outcome, Outcome::Stopped(stop) if stop.reason == Reason::Interrupted)
 }
 
-/// Publishes rows and events.
+/// Publishes and keeps rows and events.
 struct Publisher<'a> {
     store: &'a mut Store,
     hash: &'a mut Option<SceneHash>,
+    kept: &'a mut Option<KeptRun>,
 }
 
 impl Sink for Publisher<'_> {
@@ -158,13 +177,20 @@ impl Sink for Publisher<'_> {
         if let Some(hash) = self.hash {
             hash.add_row(time, row);
         }
+        if let Some(kept) = self.kept {
+            kept.add_row(time, row);
+        }
         self.store.row(time, row);
         Ok(())
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
         let Event { time, kind, body } = *event;
-        self.store.event(gyration_record::Event { time, kind, body: Some(body) });
+        let event = gyration_record::Event { time, kind, body: Some(body) };
+        self.store.event(event);
+        if let Some(kept) = self.kept {
+            kept.add_event(event);
+        }
         Ok(())
     }
 }
@@ -239,6 +265,63 @@ mod tests {
             }
             assert!(counts[0] > 3 && counts[1] == 1, "{name}: {counts:?} slices");
         }
+    }
+
+    fn saved(engine: &Engine, format: FileFormat) -> Vec<u8> {
+        (0..).map_while(|part| engine.save(format, part).unwrap()).flatten().collect()
+    }
+
+    /// The page is given stresses and parts of the contact forces besides, which no file has; rows in several chunks.
+    #[test]
+    fn files_are_those_that_are_exported_of_the_recording() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, set) in [("elastic-bounce", ["time.end=1", "time.sample=1e-4"]), ("stack", ["time.end=0.1", ""])] {
+            let set: Vec<_> = set.into_iter().filter(|one| !one.is_empty()).collect();
+            let scene = gyration_sim::open(name, &set.iter().map(|one| (*one).to_owned()).collect::<Vec<_>>()).unwrap();
+            let path = folder.path().join(name);
+            Job::of(&scene, &provenance()).record(&path, &mut Unwatched).unwrap();
+            let recording = gyration_record::Recording::open(&path).unwrap();
+            let (mut table, mut motion) = (Vec::new(), Vec::new());
+            gyration_record::export::csv(&recording, &mut table).unwrap();
+            gyration_record::export::gltf(&recording, &mut motion).unwrap();
+            let mut engine = Engine::default();
+            assert!(engine.save(FileFormat::Csv, 0).is_err());
+            assert!(engine.open(&asked(name, &set)));
+            engine.advance(20);
+            let so_far = saved(&engine, FileFormat::Csv);
+            assert!(table.starts_with(&so_far) && so_far.len() < table.len(), "{name}");
+            run(&mut engine, 1000);
+            assert!(saved(&engine, FileFormat::Csv) == table, "{name}");
+            assert!(saved(&engine, FileFormat::Glb) == motion, "{name}");
+        }
+    }
+
+    #[test]
+    fn meshes_and_tables_are_found_among_the_files_that_were_given() {
+        let text = |extra: &str| {
+            let text = gyration_scene::gallery_scene("bounce").unwrap();
+            let lines = text.lines().map(|line| match line.starts_with("shape =") {
+                true => "shape = { mesh = { file = \"parts/wedge.obj\" } }",
+                false => line,
+            });
+            lines.collect::<Vec<_>>().join("\n").replace("[[body]]", &format!("[[body]]\n{extra}"))
+        };
+        let ask =
+            |text: String| json!({ "name": "own", "scene": text, "set": ["time.end=0.01"] }).to_string().into_bytes();
+        let mut engine = Engine::default();
+        assert!(!engine.open(&ask(text(""))));
+        let refused = texts(&engine.frames()).pop().unwrap();
+        let words = refused["message"].as_str().unwrap();
+        assert!(words.contains("parts/wedge.obj: there is no such file in this page yet"), "{words}");
+        assert!(words.contains("fix: drop the file on the page"), "{words}");
+        let wedge = "v 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+        engine.give("wedge.obj", wedge.into());
+        assert!(engine.open(&ask(text(""))), "{:?}", texts(&engine.frames()));
+        assert_eq!(run(&mut engine, 1000).0["type"], "done");
+        assert!(!engine.open(&ask(text("copies = { places = \"places.csv\" }"))));
+        assert!(texts(&engine.frames()).pop().unwrap()["message"].as_str().unwrap().contains("fix: drop the file"));
+        engine.give("places.csv", b"x,y,z\n0,0,0\n1,0,0\n".to_vec());
+        assert!(engine.open(&ask(text("copies = { places = \"places.csv\" }"))), "{:?}", texts(&engine.frames()));
     }
 
     #[test]

@@ -4,6 +4,7 @@
 #![allow(unsafe_code, reason = "exported names")]
 
 use crate::engine::Engine;
+use gyration_page::FileFormat;
 use std::cell::RefCell;
 use std::sync::{Mutex, Once, PoisonError};
 
@@ -11,6 +12,7 @@ thread_local! {
     static ENGINE: RefCell<Engine> = RefCell::default();
     static INPUT: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
     static OUTPUT: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+    static SAVED: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
 
 /// The words of the last panic.
@@ -33,6 +35,15 @@ pub extern "C" fn input(len: usize) -> *mut u8 {
         input.resize(len, 0);
         input.as_mut_ptr()
     })
+}
+
+/// Takes a file that scenes may name: the first bytes of the input are its name, those behind them its content.
+#[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
+pub extern "C" fn file(name: usize, content: usize) {
+    let input = INPUT.take();
+    let (name, rest) = input.split_at(name.min(input.len()));
+    let content = rest.get(..content).unwrap_or(rest).to_vec();
+    ENGINE.with_borrow_mut(|engine| engine.give(&String::from_utf8_lossy(name), content));
 }
 
 /// Begins what the first bytes of the input ask for; 1 if that is refused.
@@ -63,6 +74,33 @@ pub extern "C" fn output() -> *const u8 {
 #[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
 pub extern "C" fn output_len() -> usize {
     OUTPUT.with_borrow(Vec::len)
+}
+
+/// Makes a part of the run so far as a file, of format 0 (CSV) or 1 (GLB); 0 behind the last one, 1 if it is there, 2
+/// if the words of a failure are.
+#[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
+pub extern "C" fn save(format: u32, part: usize) -> u32 {
+    let format = if format == 0 { FileFormat::Csv } else { FileFormat::Glb };
+    let made = ENGINE.with_borrow(|engine| engine.save(format, part));
+    let (answer, bytes) = match made {
+        Ok(None) => (0, Vec::new()),
+        Ok(Some(bytes)) => (1, bytes),
+        Err(words) => (2, words.into_bytes()),
+    };
+    SAVED.replace(bytes);
+    answer
+}
+
+/// That part, or these words.
+#[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
+pub extern "C" fn saved() -> *const u8 {
+    SAVED.with_borrow(|saved| saved.as_ptr())
+}
+
+/// Their length.
+#[cfg_attr(target_family = "wasm", unsafe(no_mangle))]
+pub extern "C" fn saved_len() -> usize {
+    SAVED.with_borrow(Vec::len)
 }
 
 /// The words of the last panic.

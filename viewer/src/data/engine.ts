@@ -4,7 +4,7 @@
 // worker only while the first one does not hear: a slice of its run takes long. A scene that is refused then leaves the
 // run before as it is, whoever refuses it.
 
-import type { Asked, Frame, FromWorker, ToWorker } from "../engine/messages";
+import type { Asked, Format, Frame, FromWorker, ToWorker } from "../engine/messages";
 import { Feed, type Message } from "./feed";
 import type { Control, Listener, Source } from "./source";
 
@@ -31,6 +31,13 @@ interface Pending {
   answer(refusal: Refusal | null): void;
 }
 
+interface Saving {
+  /** Who was asked. */
+  worker: EngineWorker | null;
+  answer(parts: ArrayBuffer[]): void;
+  refuse(reason: Error): void;
+}
+
 export class EngineRun implements Source {
   /** The scene of the run that is shown, as it was asked for. */
   shown: Asked | null = null;
@@ -42,7 +49,12 @@ export class EngineRun implements Source {
   private trial: EngineWorker | null = null;
   /** Scenes without an answer yet, by number. */
   private readonly pending = new Map<number, Pending>();
+  /** Files that are waited for, by number. */
+  private readonly savings = new Map<number, Saving>();
+  /** Files that were handed over, for every worker. */
+  private readonly files = new Map<string, ArrayBuffer>();
   private lastId = 0;
+  private lastSaving = 0;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   readonly control: Control = {
@@ -67,12 +79,43 @@ export class EngineRun implements Source {
   /** Nothing to do: the engine is never lost. */
   reconnect(): void {}
 
+  /** Hands over a file that scenes may name, for those that are run from now on. */
+  give(name: string, content: ArrayBuffer): void {
+    this.files.set(name, content);
+    for (const worker of this.workers()) worker.postMessage({ type: "file", name, content });
+  }
+
   /** Runs another text, without overrides; in the program's words why it is refused, or null. */
-  run(scene: string): Promise<string | null> {
+  run(scene: string, name = (this.shown ?? this.first).name): Promise<string | null> {
     return new Promise((resolve) => {
-      const asked = { ...this.first, scene, set: [] };
+      const asked = { name, scene, set: [] };
       this.ask({ asked, answer: (refusal) => resolve(refusal?.message ?? null) });
     });
+  }
+
+  /** The run so far as a file, part by part; an error says why there is none. */
+  save(format: Format): Promise<ArrayBuffer[]> {
+    const [id, worker] = [++this.lastSaving, this.current];
+    return new Promise((answer, refuse) => {
+      this.savings.set(id, { worker, answer, refuse });
+      if (this.shown && worker) worker.postMessage({ type: "save", id, format });
+      else this.saved(id, "The run has not begun: there is nothing to be saved.");
+    });
+  }
+
+  /** Answers who waits for a file, with its parts or with words. */
+  private saved(id: number, found: ArrayBuffer[] | string): void {
+    const saving = this.savings.get(id);
+    this.savings.delete(id);
+    if (typeof found === "string") saving?.refuse(new Error(found));
+    else saving?.answer(found);
+  }
+
+  /** Has a worker end; who waits for a file from it is told. */
+  private end(worker: EngineWorker): void {
+    worker.terminate();
+    for (const [id, saving] of [...this.savings])
+      if (saving.worker === worker) this.saved(id, "Another run has taken its place: it was not saved.");
   }
 
   private restart(asked: Asked): void {
@@ -96,7 +139,7 @@ export class EngineRun implements Source {
   private bypass(id: number): void {
     const pending = this.pending.get(id);
     if (!pending) return;
-    this.trial?.terminate();
+    if (this.trial) this.end(this.trial);
     this.trial = this.employed();
     this.trial.postMessage({ type: "open", id, asked: pending.asked });
   }
@@ -109,6 +152,7 @@ export class EngineRun implements Source {
       if (this.workers().includes(worker)) this.lose(worker, event.message || "its worker cannot be started");
     };
     worker.postMessage({ type: "load", engine: this.module ?? this.address });
+    for (const [name, content] of this.files) worker.postMessage({ type: "file", name, content });
     return worker;
   }
 
@@ -137,6 +181,12 @@ export class EngineRun implements Source {
       case "paused":
         if (worker === this.current) this.feed?.halted(message.paused);
         break;
+      case "saved":
+        this.saved(message.id, message.parts);
+        break;
+      case "unsaved":
+        this.saved(message.id, message.message);
+        break;
       case "trapped":
         this.listener?.failed(message.message);
     }
@@ -144,7 +194,7 @@ export class EngineRun implements Source {
 
   /** Keeps the worker that has accepted a scene, and shows its run. */
   private accepted(worker: EngineWorker, id: number, frames: Frame[]): void {
-    for (const other of this.workers()) if (other !== worker) other.terminate();
+    for (const other of this.workers()) if (other !== worker) this.end(other);
     this.current = worker;
     this.trial = null;
     const pending = this.pending.get(id);
@@ -163,7 +213,7 @@ export class EngineRun implements Source {
     }
     if (id === this.lastId) {
       clearTimeout(this.timer);
-      this.trial?.terminate();
+      if (this.trial) this.end(this.trial);
       this.trial = null;
     }
     const pending = this.pending.get(id);
@@ -186,7 +236,7 @@ export class EngineRun implements Source {
 
   /** Does without a worker that cannot work; what is asked for next gets another. */
   private lose(worker: EngineWorker, reason: string): void {
-    worker.terminate();
+    this.end(worker);
     if (worker === this.trial) {
       this.trial = null;
       return;

@@ -9,10 +9,18 @@ export interface Asked {
   set: string[];
 }
 
+/** The formats in which the engine gives a run, in the order of their codes; each the ending of a file. */
+export const FORMATS = ["csv", "glb"] as const;
+export type Format = (typeof FORMATS)[number];
+
 export type ToWorker =
   /** The first message: where the engine is, or the engine itself. */
   | { type: "load"; engine: string | WebAssembly.Module }
+  /** A file that scenes may name, for all that are opened from now on. */
+  | { type: "file"; name: string; content: ArrayBuffer }
   | { type: "open"; id: number; asked: Asked }
+  /** Asks for the run so far as a file. */
+  | { type: "save"; id: number; format: Format }
   | { type: "pause" }
   | { type: "resume" };
 
@@ -28,5 +36,8 @@ export type FromWorker =
   | { type: "opened"; id: number; accepted: boolean; frames: Frame[] }
   | { type: "frames"; frames: Frame[] }
   | { type: "paused"; paused: boolean }
+  /** The file, one part behind the other; or why there is none. */
+  | { type: "saved"; id: number; parts: ArrayBuffer[] }
+  | { type: "unsaved"; id: number; message: string }
   /** The engine has died, with its words. */
   | { type: "trapped"; message: string };

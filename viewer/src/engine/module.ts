@@ -3,12 +3,14 @@
 // `output` is frames one behind the other: u32 kind (0 text, 1 binary), u32 length, so many bytes, zeros up to a multiple
 // of 8; all little-endian. After a trap only `message` may be called.
 
-import type { Asked, Frame } from "./messages";
+import { type Asked, FORMATS, type Format, type Frame } from "./messages";
 
 export interface Exports {
   memory: { buffer: ArrayBuffer };
   /** Room for so many bytes of input. */
   input(length: number): number;
+  /** Takes the input for a file that scenes may name: so many bytes of its name, then so many of its content. */
+  file(name: number, content: number): void;
   /** Reads the input as JSON; 0: a run has begun, 1: refused. */
   open(length: number): number;
   /** Runs for about so many evaluations of the rates; 0: goes on, 1: has ended, 2: failed. */
@@ -16,12 +18,19 @@ export interface Exports {
   /** The frames since the last call. */
   output(): number;
   output_len(): number;
+  /** A part of the run so far as a file; 0: there is none, 1: it stands in `saved`, 2: why not stands there. */
+  save(format: number, part: number): number;
+  saved(): number;
+  saved_len(): number;
   /** The words of a panic. */
   message(): number;
   message_len(): number;
 }
 
 const HEAD = 8;
+
+/** What the engine does not do, in its words: other than after a trap, it goes on. */
+export class Refusal extends Error {}
 
 /** The frames that stand one behind the other, copied. */
 export function framesIn(bytes: Uint8Array): Frame[] {
@@ -42,6 +51,16 @@ export function framesIn(bytes: Uint8Array): Frame[] {
 export class Engine {
   constructor(private readonly exports: Exports) {}
 
+  /** Hands over a file that scenes may name, in the place of one of the same name. */
+  give(name: string, content: ArrayBuffer): void {
+    const [head, body] = [new TextEncoder().encode(name), new Uint8Array(content)];
+    const length = head.length + body.length;
+    const input = this.bytes(this.exports.input(length), length);
+    input.set(head);
+    input.set(body, head.length);
+    this.exports.file(head.length, body.length);
+  }
+
   /** Begins a run of a scene; false where it is refused. */
   open(asked: Asked): boolean {
     const bytes = new TextEncoder().encode(JSON.stringify(asked));
@@ -58,6 +77,18 @@ export class Engine {
   frames(): Frame[] {
     const at = this.exports.output();
     return framesIn(this.bytes(at, this.exports.output_len()));
+  }
+
+  /** The run so far as a file, part by part; the words of a failure are thrown. */
+  save(format: Format): ArrayBuffer[] {
+    const parts: ArrayBuffer[] = [];
+    for (;;) {
+      const answer = this.exports.save(FORMATS.indexOf(format), parts.length);
+      const bytes = this.bytes(this.exports.saved(), this.exports.saved_len()).slice();
+      if (answer === 2) throw new Refusal(new TextDecoder().decode(bytes));
+      if (answer === 0) return parts;
+      parts.push(bytes.buffer);
+    }
   }
 
   /** The words of a panic, or those of the trap. */

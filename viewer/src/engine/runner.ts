@@ -3,8 +3,8 @@
 // A run goes on until it ends, fails, or another is accepted in its place. A trap ends the instance of the engine; the
 // next scene that is asked for gets a new one of the same compiled module.
 
-import type { Asked, Frame, FromWorker, ToWorker } from "./messages";
-import { Engine, type Exports } from "./module";
+import type { Asked, Format, FromWorker, ToWorker } from "./messages";
+import { Engine, type Exports, Refusal } from "./module";
 import { Slice } from "./slice";
 
 /** Frames are gathered for so long before they are sent [ms]. */
@@ -24,6 +24,8 @@ export interface Host {
 export class Runner {
   private module: WebAssembly.Module | null = null;
   private engine: Engine | null = null;
+  /** Files that were handed over, for every instance of the engine. */
+  private readonly files = new Map<string, ArrayBuffer>();
   private slice = new Slice();
   private going = false;
   private paused = false;
@@ -45,8 +47,15 @@ export class Runner {
       case "load":
         await this.load(message.engine);
         break;
+      case "file":
+        this.files.set(message.name, message.content);
+        this.engine?.give(message.name, message.content);
+        break;
       case "open":
         this.open(message.id, message.asked);
+        break;
+      case "save":
+        this.save(message.id, message.format);
         break;
       case "pause":
       case "resume":
@@ -74,7 +83,7 @@ export class Runner {
     if (!this.module) return;
     this.tell({ type: "heard", id });
     try {
-      this.engine ??= new Engine(this.host.instantiate(this.module));
+      this.engine ??= this.started(this.module);
       const accepted = this.engine.open(asked);
       if (accepted) {
         this.going = true;
@@ -88,6 +97,24 @@ export class Runner {
       this.tell({ type: "opened", id, accepted: false, frames: [frame] });
     }
     this.goOn();
+  }
+
+  private started(module: WebAssembly.Module): Engine {
+    const engine = new Engine(this.host.instantiate(module));
+    for (const [name, content] of this.files) engine.give(name, content);
+    return engine;
+  }
+
+  private save(id: number, format: Format): void {
+    try {
+      if (!this.engine) throw new Refusal("There is no run to be saved.");
+      this.tell({ type: "saved", id, parts: this.engine.save(format) });
+    } catch (error) {
+      const trapped = !(error instanceof Refusal);
+      const message = trapped ? this.wordsOfTrap(error) : error.message;
+      this.tell({ type: "unsaved", id, message });
+      if (trapped) this.tell({ type: "trapped", message });
+    }
   }
 
   /** Has the next slice run once the messages that wait are heard. */
@@ -125,10 +152,10 @@ export class Runner {
   }
 
   private tell(message: FromWorker): void {
-    const frames: Frame[] = "frames" in message ? message.frames : [];
+    const contents = "frames" in message ? message.frames : "parts" in message ? message.parts : [];
     this.host.tell(
       message,
-      frames.filter((frame) => typeof frame !== "string"),
+      contents.filter((content) => typeof content !== "string"),
     );
   }
 

@@ -6,7 +6,9 @@ import type { Recording } from "../data/recording";
 import { h } from "../ui/dom";
 import { searchOf } from "./address";
 import { Editor } from "./editor";
+import { listenForDrops, read } from "./files";
 import type { GalleryScene, Hashes } from "./gallery";
+import { SaveButtons } from "./save";
 import { Verdict } from "./verdict";
 
 export class Desk implements Surroundings {
@@ -17,16 +19,30 @@ export class Desk implements Surroundings {
   private readonly verdict = new Verdict();
   /** The text of the run that is shown. */
   private text: string;
+  /** The name of the scene in the editor. */
+  private name: string;
 
   constructor(
     private readonly subject: GalleryScene,
     private readonly hashes: Promise<Hashes>,
     private readonly run: EngineRun,
+    /** Shows the panel of the scene. */
+    private readonly opened: () => void = () => {},
   ) {
     this.text = subject.text;
-    this.editor = new Editor(subject.text, (text) => run.run(text));
+    this.editor = new Editor(subject.text, {
+      run: (text) => run.run(text, this.name),
+      take: (files) => void this.take(files),
+      isOwn: subject.own ?? false,
+    });
+    this.name = subject.name;
+    listenForDrops((files) => void this.take(files));
     this.scene = this.editor.element;
-    this.foot = this.verdict.element;
+    const saving = new SaveButtons(
+      () => run.shown?.name ?? subject.name,
+      (format) => run.save(format),
+    );
+    this.foot = h("div", { class: "foot" }, this.verdict.element, saving.element);
   }
 
   begun({ header }: Recording): boolean {
@@ -34,10 +50,23 @@ export class Desk implements Surroundings {
     this.editor.begun(header);
     this.verdict.wait();
     if (!shown) return false;
-    history.replaceState(null, "", searchOf({ scene: this.subject.name, set: shown.set }) + location.hash);
+    if (!this.subject.own)
+      history.replaceState(null, "", searchOf({ scene: this.subject.name, set: shown.set }) + location.hash);
     const another = shown.scene !== this.text;
     this.text = shown.scene;
     return another;
+  }
+
+  /** Opens a scene of the reader in the editor; what scenes name is for those that run from now on. */
+  private async take(files: File[]): Promise<void> {
+    const { scene, data } = await read(files);
+    for (const { name, content } of data) this.run.give(name, content);
+    if (scene) this.name = scene.name;
+    this.opened();
+    await this.editor.take(
+      scene?.text ?? null,
+      data.map(({ name }) => name),
+    );
   }
 
   failed(): void {

@@ -5,6 +5,8 @@ export interface GalleryScene {
   title: string;
   /** The scene file. */
   text: string;
+  /** It is a file of the reader, which no address opens. */
+  own?: true;
 }
 
 /** Hashes by name of the scene, 16 hexadecimal digits. */

@@ -4,8 +4,8 @@ import { h } from "../ui/dom";
 import { searchOf } from "./address";
 import type { GalleryScene } from "./gallery";
 
-/** All scenes; `unknown` is a name that is none of theirs. */
-export function overview(scenes: GalleryScene[], unknown: string | null): HTMLElement {
+/** All scenes; `unknown` is a name that is none of theirs, `files` asks for some of the reader. */
+export function overview(scenes: GalleryScene[], unknown: string | null, files: HTMLElement): HTMLElement {
   const problem = `There is no scene "${unknown}" in the gallery. These are there:`;
   return h(
     "main",
@@ -14,7 +14,8 @@ export function overview(scenes: GalleryScene[], unknown: string | null): HTMLEl
     h(
       "p",
       { class: "quiet" },
-      "Choose a scene: it runs in this page, and nothing of it leaves your machine.",
+      "Choose a scene, or drop one of yours here: it runs in this page, and nothing of it leaves your machine. ",
+      files,
     ),
     unknown !== null && h("p", { class: "note bad", role: "alert" }, problem),
     h(

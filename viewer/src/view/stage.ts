@@ -85,9 +85,9 @@ export class Stage {
     this.frames++;
   }
 
-  /** While playing: how long the last frame took [ms]. */
+  /** While playing: how long the last frame took [ms]. Fewer pixels clear the picture: it is drawn before that is seen. */
   tookWhilePlaying(milliseconds: number): void {
-    if (this.thrift.saw(milliseconds)) this.resize();
+    if (this.thrift.saw(milliseconds)) this.draw();
   }
 
   /** Takes fewer pixels where there are many bodies. */

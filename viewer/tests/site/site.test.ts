@@ -4,6 +4,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { beforeAll, describe, expect, it } from "vitest";
+import type { GalleryScene } from "../../src/site/gallery";
 import { differing, opened, pixelsAt } from "../browser/browser";
 import { hosted } from "./server";
 
@@ -100,6 +101,64 @@ describe.skipIf(!SITE)("the site", () => {
     await page.getByRole("tab", { name: "Scene" }).click();
     await page.getByRole("button", { name: "Back to the gallery's text" }).click();
     expect(await editor.inputValue()).toBe(text);
+    expect(problems).toEqual([]);
+    await close();
+  });
+
+  it("saves_the_run_as_a_table_and_as_an_animation_also_by_keys", async () => {
+    const { page, problems, close } = await opened(`${site}?scene=bounce&set=time.end=0.1`);
+    await expect.poll(() => verdict(page)).toMatch(/^hash [0-9a-f]{16}$/);
+    const saved = async (name: RegExp) => {
+      const coming = page.waitForEvent("download");
+      await page.getByRole("group", { name: "save" }).getByRole("button", { name }).press("Enter");
+      const file = await coming;
+      return [file.suggestedFilename(), readFileSync(await file.path())] as const;
+    };
+    const [table, text] = await saved(/table/);
+    expect(table).toBe("bounce.csv");
+    // A line of names, and one each hundredth of a second.
+    expect(text.toString().split("\n")).toHaveLength(1 + 11 + 1);
+    const [motion, bytes] = await saved(/animation/);
+    expect(motion).toBe("bounce.glb");
+    expect(bytes.subarray(0, 4).toString()).toBe("glTF");
+    await expect
+      .poll(() => page.locator(".save [role=status]").textContent())
+      .toMatch(/^bounce\.glb: .* MB$/);
+    expect(problems).toEqual([]);
+    await close();
+  });
+
+  it("runs_a_scene_and_its_mesh_that_are_dropped_on_the_page_or_chosen", async () => {
+    const wedge = "v 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    const scenes: GalleryScene[] = JSON.parse(readFileSync(join(folder, "gallery.json"), "utf8"));
+    const text = scenes
+      .find(({ name }) => name === "bounce")!
+      .text.replace(/shape = .*/, 'shape = { mesh = { file = "wedge.obj" } }')
+      .replace("end = 6.0", "end = 0.1");
+    const drop = async (page: Page, files: [string, string][]) => {
+      const data = await page.evaluateHandle((given) => {
+        const transfer = new DataTransfer();
+        for (const [name, content] of given) transfer.items.add(new File([content], name));
+        return transfer;
+      }, files);
+      await page.dispatchEvent("body", "drop", { dataTransfer: data });
+    };
+    const { page, problems, close } = await opened(`${site}?scene=bounce&set=time.end=0.2`);
+    await expect.poll(() => rows(page)).toBe(21);
+    await drop(page, [["mine.toml", text]]);
+    const refusal = page.locator("#scene-refusal pre");
+    await expect.poll(() => refusal.textContent()).toContain("drop the file on the page");
+    await drop(page, [["wedge.obj", wedge]]);
+    await expect.poll(() => rows(page)).toBe(11);
+    expect(await refusal.count()).toBe(0);
+    // From the gallery, by the button.
+    await page.getByRole("link", { name: "Gallery" }).click();
+    await page.locator("input[type=file]").setInputFiles([
+      { name: "mine.toml", mimeType: "", buffer: Buffer.from(text) },
+      { name: "wedge.obj", mimeType: "", buffer: Buffer.from(wedge) },
+    ]);
+    await page.waitForFunction(() => window.gyration?.rows === 11);
+    expect(page.url()).not.toContain("scene=");
     expect(problems).toEqual([]);
     await close();
   });

@@ -68,6 +68,35 @@ describe("a run of the engine", () => {
     expect(told.calls).toEqual(["progress 0 running"]);
   });
 
+  it("hands_files_that_scenes_name_to_every_worker", async () => {
+    const content = new ArrayBuffer(3);
+    run.give("rock.stl", content);
+    expect(workers[0].heard.at(-1)).toEqual({ type: "file", name: "rock.stl", content });
+    void run.run("text of mine", "mine");
+    vi.advanceTimersByTime(HANGS_MS);
+    expect(workers[1].heard.slice(1)).toEqual([
+      { type: "file", name: "rock.stl", content },
+      { type: "open", id: 2, asked: { name: "mine", scene: "text of mine", set: [] } },
+    ]);
+  });
+
+  it("hands_files_of_its_run_over_and_says_why_there_is_none", async () => {
+    const table = run.save("csv");
+    expect(workers[0].heard.at(-1)).toEqual({ type: "save", id: 1, format: "csv" });
+    const parts = [new ArrayBuffer(3)];
+    workers[0].say({ type: "saved", id: 1, parts });
+    expect(await table).toBe(parts);
+    const refused = run.save("glb");
+    workers[0].say({ type: "unsaved", id: 2, message: "no surfaces" });
+    await expect(refused).rejects.toThrow("no surfaces");
+    // The worker does not hear, and another run takes the place of its own.
+    const late = run.save("csv");
+    run.control.restart(["b=2"]);
+    vi.advanceTimersByTime(HANGS_MS);
+    workers[1].say(opened(2));
+    await expect(late).rejects.toThrow("taken its place");
+  });
+
   it("goes_on_where_a_restart_is_refused_and_names_its_overrides", () => {
     run.control.restart(["b=2"]);
     workers[0].say({ type: "heard", id: 2 });

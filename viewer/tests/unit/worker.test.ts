@@ -69,6 +69,8 @@ class FakeEngine {
   private scene = "";
   private slices = 0;
   private out: Uint8Array = new Uint8Array(0);
+  private kept: Uint8Array = new Uint8Array(0);
+  given: string[] = [];
   input = () => 64;
   open = (length: number) => {
     const asked = JSON.parse(new TextDecoder().decode(new Uint8Array(this.memory.buffer, 64, length)));
@@ -80,6 +82,11 @@ class FakeEngine {
     [this.scene, this.slices] = [asked.scene, 0];
     this.out = written(JSON.stringify({ type: "header", header: headerOf() }));
     return 0;
+  };
+  file = (name: number, content: number) => {
+    const read = (at: number, length: number) =>
+      new TextDecoder().decode(new Uint8Array(this.memory.buffer, at, length));
+    this.given.push(`${read(64, name)}: ${read(64 + name, content)}`);
   };
   advance = () => {
     if (this.scene === "late trap") throw new Error("unreachable");
@@ -95,6 +102,17 @@ class FakeEngine {
     this.out = new Uint8Array(0);
     return length;
   };
+  /** Two parts of a table; no other format. */
+  save = (format: number, part: number) => {
+    if (this.scene === "late trap") throw new Error("unreachable");
+    this.kept = new TextEncoder().encode(format === 0 ? ["t,", "x"][part] : "no such format");
+    return format > 0 ? 2 : part < 2 ? 1 : 0;
+  };
+  saved = () => {
+    new Uint8Array(this.memory.buffer, 3072, this.kept.length).set(this.kept);
+    return 3072;
+  };
+  saved_len = () => this.kept.length;
   message = () => {
     new Uint8Array(this.memory.buffer, 1024, 5).set(new TextEncoder().encode("oh no"));
     return 1024;
@@ -106,15 +124,15 @@ class FakeEngine {
 function running() {
   const told: FromWorker[] = [];
   const slices: (() => void)[] = [];
-  let instances = 0;
+  const engines: FakeEngine[] = [];
   const runner = new Runner({
     tell: (message) => told.push(message),
     later: (work) => slices.push(work),
     now: () => 100 * told.length,
     compile: async () => ({}) as WebAssembly.Module,
     instantiate: () => {
-      instances++;
-      return new FakeEngine() as Exports;
+      engines.push(new FakeEngine());
+      return engines.at(-1) as Exports;
     },
   });
   const hear = async (message: ToWorker) => {
@@ -124,7 +142,7 @@ function running() {
   const open = (id: number, scene: string) =>
     hear({ type: "open", id, asked: { name: "", scene, set: ["a=1"] } });
   const slice = () => slices.shift()?.();
-  return { told, slices, hear, open, slice, instances: () => instances };
+  return { told, slices, hear, open, slice, engines, instances: () => engines.length };
 }
 
 describe("the runner", () => {
@@ -146,6 +164,39 @@ describe("the runner", () => {
     expect(slices).toHaveLength(0);
     const frames = told.flatMap((message) => (message.type === "frames" ? message.frames : []));
     expect(JSON.parse(frames.at(-1) as string).time).toBe(5);
+  });
+
+  it("hands_a_run_over_part_by_part_and_goes_on_where_that_is_refused", async () => {
+    const { told, hear, open, slice, instances } = running();
+    await hear({ type: "load", engine: "engine.wasm" });
+    await hear({ type: "save", id: 1, format: "csv" });
+    expect(told.at(-1)).toMatchObject({ type: "unsaved", id: 1 });
+    await open(1, "good");
+    await hear({ type: "save", id: 2, format: "csv" });
+    const { parts } = told.at(-1) as { parts: ArrayBuffer[] };
+    expect(parts.map((part) => new TextDecoder().decode(part))).toEqual(["t,", "x"]);
+    await hear({ type: "save", id: 3, format: "glb" });
+    expect(told.at(-1)).toEqual({ type: "unsaved", id: 3, message: "no such format" });
+    slice();
+    expect([told.at(-1)?.type, instances()]).toEqual(["frames", 1]);
+    await open(2, "late trap");
+    await hear({ type: "save", id: 4, format: "csv" });
+    expect(told.at(-2)).toEqual({ type: "unsaved", id: 4, message: "The engine has failed: oh no" });
+    expect(told.at(-1)).toEqual({ type: "trapped", message: "The engine has failed: oh no" });
+  });
+
+  it("gives_files_to_every_instance", async () => {
+    const { hear, open, engines } = running();
+    await hear({ type: "load", engine: "engine.wasm" });
+    const content = new TextEncoder().encode("solid").buffer;
+    await hear({ type: "file", name: "rock.stl", content });
+    await open(1, "trap");
+    await hear({ type: "file", name: "käse.csv", content });
+    await open(2, "good");
+    expect(engines.map(({ given }) => given)).toEqual([
+      ["rock.stl: solid"],
+      ["rock.stl: solid", "käse.csv: solid"],
+    ]);
   });
 
   it("tells_the_words_of_a_trap_and_runs_the_next_scene_in_a_new_instance", async () => {

@@ -9,7 +9,7 @@ mod gltf;
 mod npz;
 pub mod vtk;
 
-pub use csv::csv;
+pub use csv::{CsvTable, csv};
 pub use drawing::bodies_with_outlines;
 pub use gltf::gltf;
 #[cfg(not(target_family = "wasm"))]

@@ -13,8 +13,8 @@ use gyration::mass::MassProperties;
 use gyration::material::Material;
 use gyration::signal::Interpolation;
 use gyration::tensor::{Mat3, Vec3};
+use gyration_files::Files;
 use nalgebra::SMatrix;
-use std::path::Path;
 
 /// All of it that does not depend on the body's mass.
 #[derive(Debug, Clone)]
@@ -28,7 +28,7 @@ pub(super) struct AffineParts {
 
 impl AffineParts {
     /// Reads them at a key; notes what is wrong with any. Tables are relative to `base`.
-    pub(super) fn of(written: &file::Affine, key: &Key, base: &Path, reporter: &mut Reporter<'_>) -> Option<Self> {
+    pub(super) fn of(written: &file::Affine, key: &Key, files: &Files, reporter: &mut Reporter<'_>) -> Option<Self> {
         let material = written.material.as_ref().map(|it| material(it, &key.key("material"), reporter));
         let internal = internal_friction(written, &key.key("internal_friction"), reporter);
         // One that changes with place or time is a force of the body's own.
@@ -41,7 +41,7 @@ impl AffineParts {
             let made = LinearResistance::gyroscopic(&square(&it.matrix), frame(it.frame));
             accepted(made, &key.key("gyroscopic").key("matrix"), reporter)
         });
-        let couple = written.couple.as_ref().map(|it| couple(it, &key.key("couple"), base, reporter));
+        let couple = written.couple.as_ref().map(|it| couple(it, &key.key("couple"), files, reporter));
         let (viscosity, anisotropic) = internal?;
         Some(Self {
             material: all(material)?,
@@ -151,13 +151,13 @@ fn internal_friction(
     made.map(|friction| (viscosity, Some(friction)))
 }
 
-fn couple(written: &file::Couple, key: &Key, base: &Path, reporter: &mut Reporter<'_>) -> Option<Couple> {
+fn couple(written: &file::Couple, key: &Key, files: &Files, reporter: &mut Reporter<'_>) -> Option<Couple> {
     match written {
         file::Couple::Value(rows) => Some(Couple::Constant(matrix(rows))),
-        file::Couple::Table(path) => match read_tensors(&base.join(path), 'N', Interpolation::Linear) {
+        file::Couple::Table(path) => match read_tensors((files, path), 'N', Interpolation::Linear) {
             Ok(table) => Some(Couple::Table(table)),
             Err(error) => {
-                reporter.note(&key.key("table"), error.to_string(), error.help());
+                reporter.note(&key.key("table"), error.to_string(), error.help(files));
                 None
             }
         },

@@ -64,7 +64,7 @@ impl<'a> PreparedBody<'a> {
         let source = MassSource::of(placed, reporter);
         let shape = value.shape.as_ref().map(|written| {
             let density = source.map_or(Some(1.0), |source| source.density(written));
-            ShapeBuilder { base: context.base, reporter }.shape(written, &key.key("shape"), density)
+            ShapeBuilder { files: context.files, reporter }.shape(written, &key.key("shape"), density)
         });
         let source = source?;
         let shape = match (shape, source) {

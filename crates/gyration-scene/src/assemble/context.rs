@@ -1,17 +1,17 @@
-//! What a body is built among: the folder of the scene, the length of the run, the supports, the fluid.
+//! What a body is built among: the files beside the scene, the length of the run, the supports, the fluid.
 
 use crate::check::PartialScene;
 use crate::document::Document;
 use crate::quantity::AnyQuantity;
 use crate::tree::Node;
+use gyration_files::Files;
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// What the rest of a scene says to a body.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SceneContext<'a> {
-    /// The folder that paths are relative to.
-    pub(super) base: &'a Path,
+    /// The files that the scene names.
+    pub(super) files: &'a Files,
     /// When the run ends \[s\], if the file says so without error.
     pub(super) end: Option<f64>,
     /// Whether there is a support that is a plane, well formed or not.
@@ -25,16 +25,16 @@ pub(crate) struct SceneContext<'a> {
 }
 
 impl<'a> SceneContext<'a> {
-    /// The context of a scene whose paths are relative to `base`, with the constants of its expressions.
+    /// The context of a scene that names these files, with the constants of its expressions.
     pub(crate) fn new(
         partial: &PartialScene,
         document: &Document,
-        base: &'a Path,
+        files: &'a Files,
         constants: Option<&'a BTreeMap<String, AnyQuantity>>,
     ) -> Self {
         let supports = document.root.get("support").map(Node::items).unwrap_or_default();
         Self {
-            base,
+            files,
             end: partial.time.as_ref().map(|time| time.end.value()),
             has_support: supports.iter().any(|support| support.get("shape").is_none()),
             has_fluid: document.root.get("fluid").is_some(),

@@ -24,7 +24,7 @@ impl WrittenDeformation {
     pub(super) fn of(placed: &Placed<Body>, context: &SceneContext, reporter: &mut Reporter<'_>) -> Self {
         let Placed { key, value, .. } = placed;
         one_kind(value, key, reporter);
-        let parts = value.deformable().map(|(name, it)| AffineParts::of(it, &key.key(name), context.base, reporter));
+        let parts = value.deformable().map(|(name, it)| AffineParts::of(it, &key.key(name), context.files, reporter));
         let contracting = value.contractile.as_ref();
         let contracting = contracting.map(|it| WrittenContraction::of(it, &key.key("contractile"), context, reporter));
         Self { parts, contracting }

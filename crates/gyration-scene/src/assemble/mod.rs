@@ -215,7 +215,7 @@ pub(crate) fn assemble(
     reporter: &mut Reporter<'_>,
 ) -> Option<(Built, Vec<UnknownForm>)> {
     material::resolve_names(partial);
-    let supports = AssembledSupports::of(partial, context.base, reporter);
+    let supports = AssembledSupports::of(partial, context.files, reporter);
     let AssembledBodies { all: mut assembled, starts } = AssembledBodies::of(partial, &supports, context, reporter);
     let around = partial.fluid.as_ref().map(|written| fluid::fluid(written, context, reporter));
     behaviour::resolve(partial, &assembled, reporter);

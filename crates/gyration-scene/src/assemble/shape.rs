@@ -10,13 +10,13 @@ use gyration::shape::{
     UnionPart,
 };
 use gyration::tensor::Vec3;
-use gyration_geometry::{MeshError, hull, read_mesh};
-use std::path::Path;
+use gyration_files::Files;
+use gyration_geometry::{MeshError, hull, parse_mesh, read_mesh};
 
 /// Where shapes come from and where complaints go.
 pub(super) struct ShapeBuilder<'a, 'b> {
-    /// The folder that paths are relative to.
-    pub(super) base: &'a Path,
+    /// The files that the scene names.
+    pub(super) files: &'a Files,
     pub(super) reporter: &'a mut Reporter<'b>,
 }
 
@@ -69,11 +69,15 @@ impl ShapeBuilder<'_, '_> {
     }
 
     fn mesh(&mut self, mesh: &file::Mesh, key: &Key) -> Option<Polyhedron> {
-        let path = self.base.join(&mesh.file);
-        let read = read_mesh(&path, mesh.scale.value());
+        let (path, scale) = (self.files.path(&mesh.file), mesh.scale.value());
+        let read = match self.files.given(&mesh.file) {
+            None => read_mesh(&path, scale),
+            Some(Ok(bytes)) => parse_mesh(&path, bytes, scale),
+            Some(Err(source)) => Err(MeshError::Unreadable { path, source }),
+        };
         read.map_err(|error| {
             let help = match error {
-                MeshError::Unreadable { .. } => "the path is relative to the folder of the scene",
+                MeshError::Unreadable { .. } => self.files.help(),
                 _ => "mend the file, or choose another",
             };
             self.reporter.note(&key.key("file"), error.to_string(), help);

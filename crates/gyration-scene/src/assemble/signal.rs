@@ -9,14 +9,14 @@ use crate::check::Reporter;
 use crate::file::{Interpolation as Written, Ramp, Rows, Signal as WrittenSignal, Table, Wave as WrittenWave};
 use crate::key::Key;
 use crate::quantity::{AnyQuantity, Velocity, si};
+use crate::read::NamedFile;
 use crate::table::{TableFault, read_numbers, read_tensors, read_vectors};
 use crate::units::shown;
 use gyration::signal::{Interpolation, Signal, TensorTable, Wave};
 use gyration::tensor::{Mat3, Vec3};
-use std::path::Path;
 
 /// Reads a table: its path, what messages call its tensors, what it does between its times.
-pub(super) type Reader = fn(&Path, char, Interpolation) -> Result<TensorTable, TableFault>;
+pub(super) type Reader = fn(NamedFile<'_>, char, Interpolation) -> Result<TensorTable, TableFault>;
 
 /// What a signal of the file is at a time.
 pub(super) trait Value {
@@ -112,11 +112,12 @@ impl SignalBuilder<'_, '_> {
             Written::Linear => Interpolation::Linear,
             Written::Cubic => Interpolation::Cubic,
         };
-        let path = self.context.base.join(&table.file);
-        let made = match read(&path, self.symbol, interpolation) {
+        let files = self.context.files;
+        let path = files.path(&table.file);
+        let made = match read((files, &table.file), self.symbol, interpolation) {
             Ok(made) => made,
             Err(error) => {
-                self.reporter.note(key, error.to_string(), error.help());
+                self.reporter.note(key, error.to_string(), error.help(files));
                 return None;
             }
         };

@@ -15,8 +15,8 @@ use gyration::shape::Shape;
 use gyration::solid_support::SolidSupport;
 use gyration::support::{MotionPart, Support as Plane, SupportMotion};
 use gyration::tensor::Vec3;
+use gyration_files::Files;
 use std::collections::HashMap;
-use std::path::Path;
 use std::sync::Arc;
 
 /// The supports of a scene, by sort; none in the place of one with an error.
@@ -42,7 +42,7 @@ pub(super) struct Begins {
 
 impl AssembledSupports {
     /// Builds them; notes what is wrong with a shape.
-    pub(super) fn of(partial: &PartialScene, base: &Path, reporter: &mut Reporter<'_>) -> Self {
+    pub(super) fn of(partial: &PartialScene, files: &Files, reporter: &mut Reporter<'_>) -> Self {
         let mut this = Self::default();
         for placed in &partial.supports {
             if placed.value.shape.is_some() {
@@ -50,7 +50,7 @@ impl AssembledSupports {
                     None => Some(Quaternion::IDENTITY),
                     Some(written) => orientation(written, &placed.key.key("orientation"), reporter),
                 };
-                let solid = solid(placed, turned, base, reporter);
+                let solid = solid(placed, turned, files, reporter);
                 if let Some((solid, orientation)) = solid.as_ref().zip(turned) {
                     this.begin(&placed.value, (solid.start.position, orientation), &solid.motion);
                 }
@@ -95,11 +95,11 @@ fn plane(support: &Support) -> Option<Plane> {
 fn solid(
     placed: &Placed<Support>,
     turned: Option<Quaternion>,
-    base: &Path,
+    files: &Files,
     reporter: &mut Reporter<'_>,
 ) -> Option<SolidSupport> {
     let Placed { key, value, .. } = placed;
-    let shape = ShapeBuilder { base, reporter }.shape(value.shape.as_ref()?, &key.key("shape"), Some(1.0))?;
+    let shape = ShapeBuilder { files, reporter }.shape(value.shape.as_ref()?, &key.key("shape"), Some(1.0))?;
     if !is_solid(&shape, &key.key("shape"), reporter) {
         return None;
     }

@@ -5,9 +5,9 @@ use crate::file::{Body, Copies as Written, CopyGrid, RandomCopies};
 use crate::key::{Key, split_copy};
 use crate::places::{CopyPlace, MOST_COPIES, grid, read_places};
 use crate::quantity::si;
+use gyration_files::Files;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
 
 /// The copies of a body, as far as the file tells where they are.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +24,7 @@ pub(crate) enum Copies {
 
 impl Copies {
     /// Those of a well-formed body; notes what is wrong with them.
-    pub(super) fn of(body: &Placed<Body>, base: &Path, in_lattice: bool, reporter: &mut Reporter<'_>) -> Self {
+    pub(super) fn of(body: &Placed<Body>, files: &Files, in_lattice: bool, reporter: &mut Reporter<'_>) -> Self {
         let Some(written) = &body.value.copies else { return Self::Alone };
         let key = body.key.key("copies");
         let mut is_sound = check_body(body, in_lattice, reporter);
@@ -33,10 +33,10 @@ impl Copies {
                 is_sound &= check_grid(written, &key.key("grid"), reporter);
                 if is_sound { Self::Placed(grid(written)) } else { Self::Unknown }
             }
-            Written::Places(file) => match read_places(&base.join(file)) {
+            Written::Places(file) => match read_places((files, file)) {
                 Ok(places) => Self::Placed(places),
                 Err(fault) => {
-                    reporter.note(&key.key("places"), fault.to_string(), fault.help());
+                    reporter.note(&key.key("places"), fault.to_string(), fault.help(files));
                     Self::Unknown
                 }
             },

@@ -11,9 +11,9 @@ use crate::key::Key;
 use crate::places::MOST_COPIES;
 use crate::quantity::AnyQuantity;
 use crate::tree::{Node, Value};
+use gyration_files::Files;
 use serde::de::DeserializeOwned;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 /// The words by which contacts name a body.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -67,10 +67,10 @@ pub(crate) struct PartialScene {
 }
 
 impl PartialScene {
-    /// Takes from the document what nothing has been found against; tables of places are looked for in a folder.
-    pub(crate) fn new(document: &Document, base: &Path, diagnostics: &mut Diagnostics) -> Self {
+    /// Takes from the document what nothing has been found against; tables of places are among these files.
+    pub(crate) fn new(document: &Document, files: &Files, diagnostics: &mut Diagnostics) -> Self {
         let mut this = Self::take(document, diagnostics);
-        this.count_copies(base, &mut Reporter::new(document, diagnostics));
+        this.count_copies(files, &mut Reporter::new(document, diagnostics));
         this
     }
 
@@ -103,14 +103,14 @@ impl PartialScene {
     }
 
     /// Finds the copies of all bodies; notes what is wrong with them.
-    fn count_copies(&mut self, base: &Path, reporter: &mut Reporter<'_>) {
+    fn count_copies(&mut self, files: &Files, reporter: &mut Reporter<'_>) {
         let written = reporter.document.root.get("body").map(Node::items).unwrap_or_default();
         let is_written = |body: &Node| if body.get("copies").is_some() { Copies::Unknown } else { Copies::Alone };
         self.copies = written.iter().map(is_written).collect();
         let in_lattice = reporter.document.root.get("lattice").is_some();
         let mut total = 0;
         for body in &self.bodies {
-            let copies = Copies::of(body, base, in_lattice, reporter);
+            let copies = Copies::of(body, files, in_lattice, reporter);
             total += copies.count();
             self.copies[body.number] = if total > MOST_COPIES && copies != Copies::Alone {
                 total -= copies.count();

@@ -14,6 +14,7 @@ use crate::document::{Diagnostics, Document};
 use crate::error::{ErrorKind, LoadError, ReadError, SceneErrors};
 use crate::key::Key;
 use crate::tree::Span;
+use gyration_files::Files;
 use std::io::Read;
 use std::path::Path;
 
@@ -34,6 +35,25 @@ pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
         return Err(ReadError::TooLarge { path: path.to_owned(), size, limit: LARGEST_FILE });
     }
     Ok(content)
+}
+
+/// A file that a scene names, by this name.
+pub(crate) type NamedFile<'a> = (&'a Files, &'a str);
+
+/// The bytes of a file that a scene names.
+///
+/// # Errors
+/// `Io`, `TooLarge`.
+pub(crate) fn named((files, name): NamedFile<'_>) -> Result<Vec<u8>, ReadError> {
+    let path = files.path(name);
+    match files.given(name) {
+        None => bytes(&path),
+        Some(Ok(content)) if content.len() as u64 > LARGEST_FILE => {
+            Err(ReadError::TooLarge { path, size: content.len() as u64, limit: LARGEST_FILE })
+        }
+        Some(Ok(content)) => Ok(content.to_vec()),
+        Some(Err(source)) => Err(ReadError::Io { path, source }),
+    }
 }
 
 /// Name and text of a file.

@@ -48,7 +48,7 @@ pub fn execute(arguments: &Export) -> Result<u8, CliError> {
     }
     let what = match format {
         ExportFormat::Csv => {
-            replace_file(&path, |partial| write_csv(&recording, table, partial))?;
+            replace_file(&path, |partial| written(partial, |out| table.write(&recording, out)))?;
             format!("{} samples", recording.rows())
         }
         ExportFormat::Npz => {
@@ -58,7 +58,7 @@ pub fn execute(arguments: &Export) -> Result<u8, CliError> {
         ExportFormat::Gltf => {
             let mut keys = 0;
             replace_file(&path, |partial| {
-                keys = export::gltf(&recording, partial)?;
+                keys = written(partial, |out| export::gltf(&recording, out))?;
                 Ok(())
             })?;
             format!("{keys} of {} samples", recording.rows())
@@ -130,9 +130,14 @@ fn to_stdout(recording: &Recording, format: ExportFormat, table: Table) -> Resul
     Ok(code::DONE)
 }
 
-fn write_csv(recording: &Recording, table: Table, path: &Path) -> Result<(), RecordError> {
+/// Writes a file; what the writing gives.
+fn written<T>(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> Result<T, RecordError>,
+) -> Result<T, RecordError> {
     let failed = cannot_write(path);
     let mut out = BufWriter::new(File::create(path).map_err(&failed)?);
-    table.write(recording, &mut out)?;
-    out.flush().map_err(failed)
+    let given = write(&mut out)?;
+    out.flush().map_err(failed)?;
+    Ok(given)
 }

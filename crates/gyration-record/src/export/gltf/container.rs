@@ -48,7 +48,8 @@ impl Numbers {
     fn floats<const N: usize>(&mut self, vectors: &[[f32; N]], target: Option<u32>) -> usize {
         let view = self.view(vectors.iter().flatten().flat_map(|number| number.to_le_bytes()), target);
         let extreme = |choose: fn(f32, f32) -> f32, start: f32| -> Vec<f32> {
-            (0..N).map(|k| vectors.iter().map(|vector| vector[k]).fold(start, choose)).collect()
+            // Which zero is the least is the processor's to say; adding zero turns −0 into 0.
+            (0..N).map(|k| vectors.iter().map(|vector| vector[k]).fold(start, choose) + 0.0).collect()
         };
         let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][N - 1];
         self.accessor(json!({

@@ -28,9 +28,7 @@ use motion::{Track, keys, tracks};
 use nalgebra::UnitQuaternion;
 use serde_json::{Value, json};
 use shading::{shaded, single};
-use std::fs::File;
-use std::io::{BufWriter, Write};
-use std::path::Path;
+use std::io::Write;
 
 /// How vertices are joined, by the codes of the format.
 const POINTS: u32 = 0;
@@ -40,19 +38,17 @@ const TRIANGLES: u32 = 4;
 /// By how much a wireframe is larger than its body, so that it lies outside the triangles.
 const LIFT: f64 = 1.003;
 
-/// Writes the motion to a binary glTF file, replacing it; returns the number of samples that became keys.
+/// Writes the motion as binary glTF; returns the number of samples that became keys.
 ///
 /// # Errors
-/// `NoSurfaces` if the recording is older than they are; `Corrupt`; those of reading; `Io` with the file's path.
-pub fn gltf(recording: &Recording, path: &Path) -> Result<usize, RecordError> {
+/// `NoSurfaces` if the recording is older than they are; `Corrupt`; those of reading; `Io` if `out` fails, under the
+/// recording's path.
+pub fn gltf(recording: &Recording, out: &mut impl Write) -> Result<usize, RecordError> {
     let drawing = Drawing::of(recording)?;
     let rows = keys(&recording.times()?, drawing.bodies.len());
     let tracks = tracks(recording, &drawing, &rows)?;
     let document = GltfDocument::new(&drawing, &tracks);
-    let file = File::create(path).map_err(RecordError::io("create", path))?;
-    let mut out = BufWriter::new(file);
-    let written = document.write(recording, &mut out).and_then(|()| out.flush());
-    written.map_err(RecordError::io("write", path))?;
+    document.write(recording, out).map_err(RecordError::io("write the glTF of", recording.path()))?;
     Ok(rows.len())
 }
 
