@@ -10,10 +10,11 @@ use crate::thin::Thinner;
 use gyration::support::Support;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_record::Recording;
-use gyration_record::export::bodies_with_outlines;
+use gyration_record::export::Outlines;
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A recording with its descriptions.
 #[derive(Debug)]
@@ -54,11 +55,9 @@ pub struct BodyPicture {
     pub mass: f64,
     /// The largest side of its bounding box [m].
     pub size: f64,
-    /// Its wireframe.
-    pub outline: Wireframe,
-    /// Points whose projected hull is the projected body, relative to the centre of mass [m].
-    #[serde(deserialize_with = "vectors")]
-    pub silhouette: Vec<Vec3>,
+    /// What it looks like, as all of its surface do.
+    #[serde(skip)]
+    pub look: Arc<Look>,
     /// V of a body that contracts [m³].
     #[serde(default)]
     pub volume: Option<f64>,
@@ -77,6 +76,15 @@ impl BodyPicture {
     pub fn contracts(&self) -> bool {
         self.kind == "contractile"
     }
+}
+
+/// What a body looks like.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Look {
+    /// Its wireframe.
+    pub outline: Wireframe,
+    /// Points whose projected hull is the projected body, relative to the centre of mass [m].
+    pub silhouette: Vec<Vec3>,
 }
 
 /// Lines of a body.
@@ -104,6 +112,23 @@ impl From<SupportPicture> for Support {
     }
 }
 
+/// The bodies as they are described.
+fn bodies(recording: &Recording) -> Result<Vec<BodyPicture>, PlotError> {
+    let attributes = recording.attributes();
+    let all = attributes.get("bodies").and_then(Value::as_array);
+    let Some(all) = all else { return attribute(recording, "bodies") };
+    let mut looks = Outlines::of(attributes);
+    let body = |body: &Value| {
+        let look = looks.shared(body, |part| {
+            let silhouette: Vec<[f64; 3]> = described(recording, "bodies", part("silhouette"))?;
+            let silhouette = silhouette.into_iter().map(Vec3::from).collect();
+            Ok::<_, PlotError>(Look { outline: described(recording, "bodies", part("outline"))?, silhouette })
+        })?;
+        Ok(BodyPicture { look, ..described(recording, "bodies", body)? })
+    };
+    all.iter().map(body).collect()
+}
+
 /// Points from rows of three numbers.
 fn vectors<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Vec3>, D::Error> {
     let rows = Vec::<[f64; 3]>::deserialize(from)?;
@@ -126,7 +151,7 @@ impl<'a> RecordedScene<'a> {
     /// [`PlotError::Attribute`] if one is missing or is not what it should be.
     pub fn new(recording: &'a Recording) -> Result<Self, PlotError> {
         let supports: Vec<SupportPicture> = attribute(recording, "supports")?;
-        let bodies: Vec<BodyPicture> = described(recording, "bodies", &bodies_with_outlines(recording.attributes()))?;
+        let bodies = bodies(recording)?;
         let named = bodies.iter().map(|body| (body.name.as_str(), body.kind.as_str()));
         let classes = BodyClasses::of(named, recording.attributes().get("resolved").unwrap_or(&Value::Null));
         Ok(Self {

@@ -36,10 +36,10 @@ impl Silhouette {
     pub fn of(index: usize, body: &BodyPicture, pose: &Pose, view: &View) -> Self {
         let place = |point: &Vec3| pose.position + pose.gradient * point;
         let seen = |points: &[Vec3]| points.iter().map(|p| view.project(&place(p))).collect::<Vec<Point>>();
-        let hull = convex_hull(seen(&body.silhouette));
+        let hull = convex_hull(seen(&body.look.silhouette));
         let depth = |point: &Vec3| view.depth(&(pose.gradient * point));
-        let points = seen(&body.outline.points);
-        let depths: Vec<f64> = body.outline.points.iter().map(depth).collect();
+        let points = seen(&body.look.outline.points);
+        let depths: Vec<f64> = body.look.outline.points.iter().map(depth).collect();
         let mut this = Self {
             body: index,
             hull,
@@ -49,7 +49,7 @@ impl Silhouette {
             size: body.size * pose.gradient.singular_values().max(),
             lopsided: is_lopsided(body),
         };
-        for line in &body.outline.polylines {
+        for line in &body.look.outline.polylines {
             this.add_line(line, &points, &depths, body.size);
         }
         this
@@ -93,7 +93,7 @@ impl Silhouette {
 /// Whether the centre of mass, the origin of the outline, is off the middle.
 fn is_lopsided(body: &BodyPicture) -> bool {
     let start = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
-    let (low, high) = body.silhouette.iter().fold(start, |(low, high), point| (low.inf(point), high.sup(point)));
+    let (low, high) = body.look.silhouette.iter().fold(start, |(low, high), point| (low.inf(point), high.sup(point)));
     // Without points the middle is not a number, and nothing is off it.
     (0.5 * (low + high)).norm() > OFF_MIDDLE * body.size
 }
@@ -138,8 +138,9 @@ fn distance_inside(hull: &[Point], point: Point) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recorded::Wireframe;
+    use crate::recorded::{Look, Wireframe};
     use gyration::tensor::Mat3;
+    use std::sync::Arc;
 
     fn cube() -> BodyPicture {
         let corner = |k: usize| Vec3::from_fn(|axis, _| if k >> axis & 1 == 0 { -0.5 } else { 0.5 });
@@ -148,7 +149,8 @@ mod tests {
         let polylines = edges.map(|(a, b)| vec![a, b]).collect();
         let outline = Wireframe { points: points.clone(), polylines };
         let (name, kind) = ("cube".into(), "rigid".into());
-        BodyPicture { name, kind, mass: 1.0, size: 1.0, outline, silhouette: points, volume: None, period: None }
+        let look = Arc::new(Look { outline, silhouette: points });
+        BodyPicture { name, kind, mass: 1.0, size: 1.0, look, volume: None, period: None }
     }
 
     #[test]
@@ -177,9 +179,9 @@ mod tests {
     fn a_centre_of_mass_off_the_middle_is_marked() {
         let mut body = cube();
         assert!(!is_lopsided(&body));
-        body.silhouette.iter_mut().for_each(|point| point.z += 0.1);
+        Arc::make_mut(&mut body.look).silhouette.iter_mut().for_each(|point| point.z += 0.1);
         assert!(is_lopsided(&body));
-        body.silhouette.clear();
+        Arc::make_mut(&mut body.look).silhouette.clear();
         assert!(!is_lopsided(&body));
     }
 
@@ -196,7 +198,7 @@ mod tests {
     #[test]
     fn edges_with_indices_outside_are_left_out() {
         let mut body = cube();
-        body.outline.polylines = vec![vec![0, 99], vec![0, 1]];
+        Arc::make_mut(&mut body.look).outline.polylines = vec![vec![0, 99], vec![0, 1]];
         let view = View { right: Vec3::x(), up: Vec3::z(), toward: -Vec3::y(), raised: false };
         let pose = Pose { position: Vec3::zeros(), gradient: Mat3::identity() };
         let seen = Silhouette::of(0, &body, &pose, &view);

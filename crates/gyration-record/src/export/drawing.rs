@@ -8,7 +8,9 @@ use crate::recording::Recording;
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 use serde::Deserialize;
 use serde_json::Value;
+use std::collections::HashMap;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 pub(super) type Vec3 = Vector3<f64>;
 pub(super) type Mat3 = Matrix3<f64>;
@@ -33,10 +35,12 @@ pub(super) struct DrawnBody {
     pub size: f64,
     /// Index of its surface; none for points.
     pub surface: Option<usize>,
-    outline: DrawnOutline,
+    /// Its wireframe, which those of a surface share.
+    #[serde(skip)]
+    outline: Arc<DrawnOutline>,
 }
 
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize)]
 struct DrawnOutline {
     points: Vec<[f64; 3]>,
     /// Lines through points, by index.
@@ -101,8 +105,13 @@ impl Drawing {
         if bodies.is_some_and(|bodies| bodies.iter().any(|body| body.get("surface").is_none())) {
             return Err(RecordError::NoSurfaces { path: recording.path().to_path_buf() });
         }
-        let bodies: Vec<DrawnBody> =
-            serde_json::from_value(bodies_with_outlines(attributes)).map_err(strange(recording, "bodies"))?;
+        let mut outlines = Outlines::of(attributes);
+        let body = |described: &Value| {
+            let outline = outlines.shared(described, |part| DrawnOutline::deserialize(part("outline")))?;
+            Ok(DrawnBody { outline, ..DrawnBody::deserialize(described)? })
+        };
+        let bodies = bodies.into_iter().flatten().map(body).collect::<Result<Vec<_>, _>>();
+        let bodies = bodies.map_err(strange(recording, "bodies"))?;
         let solid_supports: Vec<DrawnSolidSupport> = match attributes.get("solid_supports") {
             Some(_) => attribute(recording, "solid_supports")?,
             None => Vec::new(),
@@ -120,19 +129,42 @@ impl Drawing {
     }
 }
 
-/// The bodies of a recording as its attributes describe them, each with wireframe and silhouette: those that have a
-/// surface share them with it, as `outlines`.
-pub fn bodies_with_outlines(attributes: &Attributes) -> Value {
-    let mut bodies = attributes.get("bodies").cloned().unwrap_or_default();
-    let outlines = attributes.get("outlines").and_then(Value::as_array);
-    for body in bodies.as_array_mut().into_iter().flatten().filter_map(Value::as_object_mut) {
-        let surface = body.get("surface").and_then(Value::as_u64).and_then(|k| usize::try_from(k).ok());
-        let shared = surface.and_then(|k| outlines?.get(k)).and_then(Value::as_object);
-        for (name, value) in shared.into_iter().flatten() {
-            body.entry(name.as_str()).or_insert_with(|| value.clone());
-        }
+/// What bodies of a recording look like, `outline` and `silhouette`: those of a surface share them.
+pub struct Outlines<'a, T> {
+    described: Option<&'a Value>,
+    known: HashMap<u64, Arc<T>>,
+}
+
+impl<'a, T> Outlines<'a, T> {
+    /// Those of the attributes of a recording.
+    pub fn of(attributes: &'a Attributes) -> Self {
+        Self { described: attributes.get("outlines"), known: HashMap::new() }
     }
-    bodies
+
+    /// That of a body as it is described: `read` is given its parts by their names, once for all of a surface.
+    ///
+    /// # Errors
+    /// Those of `read`.
+    pub fn shared<'v, E>(
+        &mut self,
+        body: &'v Value,
+        read: impl FnOnce(&dyn Fn(&str) -> &'v Value) -> Result<T, E>,
+    ) -> Result<Arc<T>, E>
+    where
+        'a: 'v,
+    {
+        let surface = body.get("surface").and_then(Value::as_u64).filter(|_| body.get("outline").is_none());
+        if let Some(known) = surface.and_then(|surface| self.known.get(&surface)) {
+            return Ok(Arc::clone(known));
+        }
+        let place = surface.and_then(|surface| usize::try_from(surface).ok());
+        let described = place.and_then(|place| self.described?.get(place)).unwrap_or(body);
+        let found = Arc::new(read(&|part| described.get(part).unwrap_or(&Value::Null))?);
+        if let Some(surface) = surface {
+            self.known.insert(surface, Arc::clone(&found));
+        }
+        Ok(found)
+    }
 }
 
 fn attribute<T: serde::de::DeserializeOwned>(recording: &Recording, name: &str) -> Result<T, RecordError> {

@@ -10,7 +10,7 @@ mod npz;
 pub mod vtk;
 
 pub use csv::{CsvTable, csv};
-pub use drawing::bodies_with_outlines;
+pub use drawing::Outlines;
 pub use gltf::gltf;
 #[cfg(not(target_family = "wasm"))]
 pub use npz::npz;
