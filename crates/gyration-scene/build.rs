@@ -1,5 +1,5 @@
-//! Takes a schema that `gyration schema` has written, where `GYRATION_SCHEMA` names one: the module of a page is smaller
-//! without what would make it there.
+//! Takes a schema that `gyration schema` has written, where `GYRATION_SCHEMA` names one: the module of a page is
+//! smaller without what would make it there.
 
 fn main() {
     println!("cargo::rustc-check-cfg=cfg(written_schema)");

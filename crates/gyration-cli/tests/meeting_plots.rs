@@ -171,7 +171,7 @@ fn laws_on_a_support_with_a_shape_are_drawn() {
 fn columns_are_drawn_by_their_names_and_a_span_is_all_that_is_seen() {
     let sandbox = recorded(&balls(""));
     let told = drawn(&sandbox, &["scene.gyr", "--columns", "a.vx,b.v*,*.gap"]);
-    for expected in ["a.vx", "b.vx", "b.vy", "b.vz", "[m/s]", "4 columns", "a.gap", "[m]", "2 columns"] {
+    for expected in ["a.vx", "b.vx", "b.vy", "b.vz", "[m/s]", "4 columns", "a.gap", "[mm]", "2 columns"] {
         assert!(told.contains(expected), "no {expected:?} in {told}");
     }
     // Ticks are those of the span.

@@ -1,7 +1,7 @@
 //! The run so far as its scene records it, to be saved: the files are those that `gyration export` makes of a
 //! recording.
 
-use crate::watched::ScenePlaces;
+use crate::places::ScenePlaces;
 use gyration_record::export::{CsvTable, gltf};
 use gyration_record::{Attributes, Event, Layout, RecordError, Recording, Rows};
 use std::path::PathBuf;

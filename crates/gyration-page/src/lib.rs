@@ -16,6 +16,7 @@ pub mod binary;
 pub mod blob;
 pub mod header;
 mod kept;
+mod places;
 pub mod store;
 mod watched;
 

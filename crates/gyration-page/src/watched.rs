@@ -4,12 +4,12 @@ use crate::besides::recorded_besides;
 use crate::blob;
 use crate::header::{ArrayEntry, Header};
 use crate::kept::KeptRun;
+use crate::places::ScenePlaces;
 use crate::store::Store;
 use gyration_record::{ArraySpec, Layout, RecordError, RowHash};
 use gyration_scene::Scene;
 use gyration_sim::{Job, Outcome, Progress, Provenance, RunSummary, Simulation, Sink, limit_in_words};
 use serde_json::{Value, json};
-use std::ops::Range;
 use std::time::Duration;
 
 /// Numbers of all rows together at most, 200 MB: a longer run is sampled more coarsely.
@@ -30,17 +30,6 @@ pub struct WatchedRun<'a> {
 pub struct SceneHash {
     hash: RowHash,
     places: ScenePlaces,
-}
-
-/// Where the arrays of the scene stand in a row that the page is given.
-#[derive(Debug, Clone)]
-pub(crate) struct ScenePlaces(Vec<Range<usize>>);
-
-impl ScenePlaces {
-    /// The numbers of the scene in a row.
-    pub(crate) fn of<'a>(&'a self, row: &'a [f64]) -> impl Iterator<Item = &'a [f64]> {
-        self.0.iter().map(|place| &row[place.clone()])
-    }
 }
 
 impl<'a> WatchedRun<'a> {
@@ -100,13 +89,7 @@ impl<'a> WatchedRun<'a> {
     }
 
     fn places(&self) -> Option<ScenePlaces> {
-        let (mut all, mut end) = (Vec::new(), 0);
-        for array in &self.layout.arrays {
-            all.push((&array.name, end..end + array.row_len()));
-            end += array.row_len();
-        }
-        let place = |array: &ArraySpec| Some(all.iter().find(|(name, _)| **name == array.name)?.1.clone());
-        self.recorded.arrays.iter().map(place).collect::<Option<_>>().map(ScenePlaces)
+        ScenePlaces::among(&self.recorded.arrays, &self.layout.arrays)
     }
 }
 

@@ -175,7 +175,7 @@ impl Simulation {
         if until < self.time() {
             let time = self.time();
             return Err(errors::arguments(format!(
-                "`until` is {until} s, and the simulation is at {time} s\n  fix: `until` counts from the start of the scene; \
+                "`until` is {until} s, and the simulation is at {time} s\n  fix: `until` counts from the start; \
                  advance_by(dt) goes on by dt"
             )));
         }

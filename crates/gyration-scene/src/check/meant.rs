@@ -74,7 +74,7 @@ const CALLED: [(&[&str], &str); 5] = [
     (&["prismatic", "linear"], "slider"),
     (&["fixed", "rigid"], "weld"),
     (&["spherical", "ball_and_socket"], "ball"),
-    (&["rod", "rope", "link"], "distance"),
+    (&["rod", "strut"], "distance"),
 ];
 
 /// How deep tables are looked into.
@@ -104,8 +104,8 @@ fn among(meant: &[(&[&str], &[&str], &str)], word: &str, place: &str) -> Option<
     meant.iter().find(is_here).map(|(.., help)| (*help).to_owned())
 }
 
-/// The tables of the same section of which a word is a key: those nearest to the table at this key, within it or
-/// within what it stands in, least deep.
+/// The tables of the same section of which a word is a key: those nearest to the table at this key, within it or within
+/// what it stands in, least deep.
 pub(super) fn elsewhere(word: &str, key: &Key, rules: &Rules) -> Option<String> {
     let names: Vec<&str> = key.names().collect();
     let mut around = Vec::with_capacity(names.len());

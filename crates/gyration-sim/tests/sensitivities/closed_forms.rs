@@ -197,8 +197,8 @@ fn the_speed_after_an_impact_changes_with_what_is_said_of_the_contact() {
     "#;
     let keys = ["contact.0.from.restitution", "contact.0.from.at_speed"];
     let found = at_end(&scene(text, &[]), &keys, &["box.vz"]);
-    // Damping is c = x/v₀, where x − ln(1 + x) = −y − ln(1 − y) with y = e x: at the same speed of approach it
-    // changes by c/v₀, and x dx/(1 + x) = y dy/(1 − y).
+    // Damping is c = x/v₀, where x − ln(1 + x) = −y − ln(1 − y) with y = e x: at the same speed of approach it changes
+    // by c/v₀, and x dx/(1 + x) = y dy/(1 − y).
     let (v, e) = (2.0, 0.7);
     close("speed", found.values[0][0], e * v, 1e-7);
     close("by restitution", found.derivatives[0].at_end().unwrap()[0], v, 1e-6);
