@@ -94,8 +94,30 @@ fn plain<'py>(object: &Bound<'py, PyAny>) -> PyResult<Plain<'py>> {
         Ok(Plain::Text(object.call_method0("__fspath__")?.extract()?))
     } else {
         let kind = object.get_type().name()?;
-        let fix = "\n  fix: give numbers, strings, booleans, lists, arrays or dictionaries";
-        Err(errors::arguments(format!("a value of type {kind} has no meaning in a scene{fix}")))
+        let fix = match kind.to_str()? {
+            "Scene" => "name the scene by its path, or as in the gallery, and write changes under `set`",
+            _ => "give numbers, strings, booleans, lists, arrays or dictionaries",
+        };
+        Err(errors::arguments(format!("a value of type {kind} has no meaning here\n  fix: {fix}")))
+    }
+}
+
+/// A name, or several.
+#[derive(FromPyObject)]
+pub enum Names {
+    /// One alone.
+    One(String),
+    /// A list of them.
+    Many(Vec<String>),
+}
+
+impl Names {
+    /// All of them.
+    pub fn list(self) -> Vec<String> {
+        match self {
+            Self::One(name) => vec![name],
+            Self::Many(names) => names,
+        }
     }
 }
 

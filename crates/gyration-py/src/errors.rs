@@ -15,8 +15,23 @@ use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
+/// What is asked for by options of the program, and by arguments here.
+const OPTIONS: [(&str, &str); 5] = [
+    ("--set:", "edit:"),
+    ("--resume", "resume=True"),
+    ("--force", "force=True"),
+    ("another -o", "another path"),
+    ("by -o", "by a path"),
+];
+
+/// A message of the engine as it is said in Python.
+fn in_python(message: &str) -> String {
+    OPTIONS.iter().fold(message.to_owned(), |message, (option, argument)| message.replace(option, argument))
+}
+
 /// Makes an exception of the package.
 fn raise(class: &str, message: &str, describe: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<()>) -> PyErr {
+    let message = in_python(message);
     Python::attach(|py| {
         let make = || {
             let instance = py.import("gyration._errors")?.getattr(class)?.call1((message,))?;

@@ -3,7 +3,7 @@
 //! Runs know nothing of each other: the results are in the order of the scenes and the same on any number of threads.
 //! Nothing is written to disk. A run that cannot begin or has to stop is an entry with its reason.
 
-use crate::convert::array;
+use crate::convert::{Names, array};
 use crate::errors::{self, reason};
 use crate::monitor::PythonMonitor;
 use crate::scene::Scene;
@@ -53,9 +53,10 @@ pub fn run_many(
     py: Python<'_>,
     scenes: &Bound<'_, PyAny>,
     threads: Option<i64>,
-    keep: Option<Vec<String>>,
+    keep: Option<Names>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Runs> {
+    let keep = keep.map(Names::list);
     let scenes = scenes.try_iter()?.map(|scene| Scene::ready(&scene?)).collect::<PyResult<Vec<Arc<Built>>>>()?;
     let threads = workers(threads)?.min(NonZeroUsize::new(scenes.len()).unwrap_or(NonZeroUsize::MIN));
     if let Some(keep) = &keep {

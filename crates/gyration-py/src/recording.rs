@@ -2,7 +2,7 @@
 
 mod frames;
 
-use crate::convert::{array as numpy, object};
+use crate::convert::{Names, array as numpy, object};
 use crate::errors;
 use crate::picture::{Picture, PictureSource};
 use gyration_record::{ArrayInfo, Recording as Inner};
@@ -251,8 +251,9 @@ impl Recording {
     /// ``forces``, ``energy``, ``stroke``, ``distance``, ``cost``, ``drive``, ``laws``; of all there is without a name.
     /// ``measures`` are the two of ``stroke``.
     #[pyo3(signature = (*what, measures=None))]
-    fn plot(&self, py: Python<'_>, what: Vec<String>, measures: Option<Vec<String>>) -> PyResult<Picture> {
-        py.detach(|| self.picture(what, measures.unwrap_or_default()))
+    fn plot(&self, py: Python<'_>, what: Vec<Names>, measures: Option<Names>) -> PyResult<Picture> {
+        let what = what.into_iter().flat_map(Names::list).collect();
+        py.detach(|| self.picture(what, measures.map(Names::list).unwrap_or_default()))
     }
 
     /// Writes the recording as one HTML page with a 3-D view, which needs neither network nor this package; returns its

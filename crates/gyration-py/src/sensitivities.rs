@@ -1,6 +1,6 @@
 //! Derivatives of recorded quantities by numbers of a scene, as arrays.
 
-use crate::convert::array;
+use crate::convert::{Names, array};
 use crate::errors;
 use crate::monitor::interruptibly;
 use crate::scene::Scene;
@@ -19,11 +19,11 @@ use pyo3::types::PyDict;
 pub fn sensitivities<'py>(
     py: Python<'py>,
     scene: &Bound<'py, PyAny>,
-    keys: Vec<String>,
-    quantities: Vec<String>,
+    keys: Names,
+    quantities: Names,
     at: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let scene = Scene::ready(scene)?;
+    let (scene, keys, quantities) = (Scene::ready(scene)?, keys.list(), quantities.list());
     let when = match at {
         "end" => At::End,
         "samples" => At::Samples,

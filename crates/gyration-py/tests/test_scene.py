@@ -143,3 +143,25 @@ def test_a_scene_is_made_of_whatever_stands_for_one(tmp_path):
     assert gyration.Scene(gyration.Scene(dice.resolved)).resolved == dice.resolved
     with pytest.raises(gyration.ArgumentError, match="3 is no scene\n  fix: "):
         gyration.Scene(3)
+
+
+def test_messages_speak_of_arguments(tmp_path):
+    scene = gyration.Scene("dice")
+    with pytest.raises(gyration.SceneError, match=r"^edit:1:1: body.die.mas"):
+        scene.edit({"body.die.mas": 1.0})
+    scene.run(tmp_path / "die.gyr")
+    with pytest.raises(gyration.Error, match="force=True"):
+        scene.edit({"body.die.velocity": [1, 0, 0]}).run(tmp_path / "die.gyr", resume=True)
+    with pytest.raises(gyration.ArgumentError, match="type Scene has no meaning here\n  fix: name the scene by its path"):
+        gyration.study({"scene": scene, "keep": {"z": {"last": "die.z"}}})
+
+
+def test_one_name_is_as_good_as_a_list_of_one():
+    scene = gyration.Scene("bounce-flat")
+    recording = scene.run()
+    name = next(column for column in recording.columns if column.endswith(".z"))
+    assert gyration.run_many([scene], keep=name)[name].shape == (1,)
+    assert recording.plot(["height", "energy"]).svg == recording.plot("height", "energy").svg
+    body = name.split(".")[0]
+    found = gyration.sensitivities(scene, "world.gravity.2", f"{body}.z")
+    assert found["derivatives"].shape == (1, 1)

@@ -44,6 +44,9 @@ const MOST_STEPS: usize = 100;
 /// A step may not be smaller than this part of a step of the run: of a body at rest that is long, but what is varied in
 /// it may relax within no time.
 const SMALLEST: f64 = 1e-13;
+/// So many steps are tried for each of the run, and so many besides: deep in a field of which the run has a few long
+/// steps there may be no end of them.
+const MOST_TRIED: (u64, u64) = (200, 100_000);
 /// The equations at a node are those of a time earlier by this part of a step.
 const INSIDE: f64 = 1e-10;
 
@@ -81,6 +84,8 @@ pub(super) struct Tangent<'a> {
     pub(super) scales: Vec<f64>,
     /// The largest growth of the perturbation so far.
     growth: f64,
+    /// Steps tried, and steps of the run.
+    tried: [u64; 2],
 }
 
 impl<'a> Tangent<'a> {
@@ -131,6 +136,7 @@ impl<'a> Tangent<'a> {
             at: start.clone(),
             scales,
             growth: 1.0,
+            tried: [0; 2],
         })
     }
 
@@ -173,6 +179,7 @@ impl<'a> Tangent<'a> {
     pub fn record(&mut self, run: &Integrator) {
         if self.is_followed() {
             self.history.record(run);
+            self.tried[1] += 1;
         }
     }
 
@@ -213,6 +220,11 @@ impl<'a> Tangent<'a> {
         if size <= SMALLEST * self.history.step_at(self.time) {
             return self.lose_all("it changes faster than can be followed".into());
         }
+        let [tried, run] = self.tried;
+        if tried > MOST_TRIED.0 * run + MOST_TRIED.1 {
+            return self.lose_all(format!("{tried} steps, where the run took {run}, have not followed it farther"));
+        }
+        self.tried[0] += 1;
         match self.attempt(end) {
             // What kept it short may be over behind it.
             Ok(next) if self.time == end && end < wanted => self.size = self.size.max(next),
