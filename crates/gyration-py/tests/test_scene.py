@@ -147,7 +147,7 @@ def test_a_scene_is_made_of_whatever_stands_for_one(tmp_path):
 
 def test_messages_speak_of_arguments(tmp_path):
     scene = gyration.Scene("dice")
-    with pytest.raises(gyration.SceneError, match=r"^edit:1:1: body.die.mas"):
+    with pytest.raises(gyration.SceneError, match=r"^edit:1:10: body.die.mas"):
         scene.edit({"body.die.mas": 1.0})
     scene.run(tmp_path / "die.gyr")
     with pytest.raises(gyration.Error, match="force=True"):
