@@ -4,6 +4,7 @@
 import { createHash } from "node:crypto";
 import type { Plugin } from "vite";
 import { defineConfig } from "vitest/config";
+import { ownShaders } from "./shaders";
 
 /** Where the program puts the data of a report; it must stand once in the page, before the script. */
 const PLACEHOLDER = "<!--gyration-data-->";
@@ -48,7 +49,7 @@ function inlined(): Plugin {
 }
 
 export default defineConfig({
-  plugins: [inlined()],
+  plugins: [ownShaders(), inlined()],
   build: { target: "es2022", assetsInlineLimit: 1_000_000, cssCodeSplit: false, modulePreload: false },
   test: {
     projects: [

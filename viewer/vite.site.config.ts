@@ -3,6 +3,7 @@
 // Beside them the page expects engine.wasm, gallery.json and hashes.json.
 
 import { defineConfig, type Plugin } from "vite";
+import { ownShaders } from "./shaders";
 
 /** Gives the page the name under which a web server finds it. */
 function index(): Plugin {
@@ -20,7 +21,7 @@ function index(): Plugin {
 
 export default defineConfig({
   base: "./",
-  plugins: [index()],
+  plugins: [ownShaders(), index()],
   worker: { format: "es" },
   build: {
     target: "es2022",

@@ -1,19 +1,23 @@
-//! Builds the page of `viewer/` with Node, if there is Node, and hands it to the crate to embed.
+//! Builds the page of `viewer/` with Node, if there is Node, and hands it to the crate to embed, compressed.
 //!
 //! A build without a page is a build all the same: the program then says how to get it. `GYRATION_PAGE=FILE` embeds a
 //! page built elsewhere, `GYRATION_PAGE=none` none at all. Packages are installed into `viewer/node_modules`, once. In
 //! a package from a registry there is no `viewer/`: the page stands beside this file.
 
+use miniz_oxide::deflate::compress_to_vec_zlib;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
+
+/// How hard the page is compressed, of ten.
+const LEVEL: u8 = 9;
 
 /// The page of a package.
 const PACKAGED: &str = "page.html";
 
 /// What the page is built from, in `viewer/`.
-const SOURCES: [&str; 6] =
-    ["index.html", "package.json", "package-lock.json", "src", "tsconfig.json", "vite.config.ts"];
+const SOURCES: [&str; 7] =
+    ["index.html", "package.json", "package-lock.json", "shaders.ts", "src", "tsconfig.json", "vite.config.ts"];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("cargo:rerun-if-env-changed=GYRATION_PAGE");
@@ -40,8 +44,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             fs::copy(&built, &page).map(drop).map_err(|error| format!("{}: {error}", built.display()))
         }),
     };
-    let constant = match made {
-        Ok(()) => "Ok(include_str!(concat!(env!(\"OUT_DIR\"), \"/page.html\")))".to_owned(),
+    let compressed = made.and_then(|()| {
+        let html = fs::read(&page).map_err(|error| format!("{}: {error}", page.display()))?;
+        let path = page.with_extension("z");
+        fs::write(&path, compress_to_vec_zlib(&html, LEVEL)).map_err(|error| format!("{}: {error}", path.display()))
+    });
+    let constant = match compressed {
+        Ok(()) => "Ok(include_bytes!(concat!(env!(\"OUT_DIR\"), \"/page.z\")))".to_owned(),
         Err(reason) => {
             if given.as_deref() != Ok("none") {
                 // Tried again at the next build: this path is not there.
