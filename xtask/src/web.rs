@@ -44,14 +44,8 @@ fn build(steps: &mut Steps) {
     let mut native = cargo();
     native.args(["build", "--release", "--package", "gyration-cli"]);
     let program = target_directory().join("release").join(crate::PROGRAM);
-    let schema = target_directory().join("scene.schema.json");
-    if !steps.run("the program", &mut native) {
-        return;
-    }
-    if let Err(reason) = written(&schema, &program) {
-        return steps.complain(reason);
-    }
-    let is_built = steps.run("the module", module.env("GYRATION_SCHEMA", &schema))
+    let is_built = steps.run("the program", &mut native)
+        && steps.run("the module", &mut module)
         && viewer::install(steps)
         && steps.run(
             "the page",
@@ -67,19 +61,6 @@ fn build(steps: &mut Steps) {
     let mut test = viewer::npm();
     test.args(["run", "test:site"]).env("GYRATION_SITE", &site).env("GYRATION_BIN", &program);
     steps.run_tests("the site", test.env("GYRATION_CHROMIUM", browser).env("NO_COLOR", "1"));
-}
-
-/// Writes the schema of scenes, which the module then need not make.
-fn written(schema: &Path, program: &Path) -> Result<(), String> {
-    let printed = Command::new(program).arg("schema").output().map_err(|error| format!("`schema`: {error}"))?;
-    if !printed.status.success() {
-        return Err(format!("`schema`: {}", String::from_utf8_lossy(&printed.stderr)));
-    }
-    // What has not changed keeps its time, so that nothing is built anew.
-    if fs::read(schema).is_ok_and(|known| known == printed.stdout) {
-        return Ok(());
-    }
-    fs::write(schema, &printed.stdout).map_err(|error| cannot(schema, &error))
 }
 
 /// Puts module, gallery and hashes beside the page.

@@ -1,7 +1,7 @@
 //! Other files of the program, studies and measurements, read with the same care as a scene.
 //!
 //! ```text
-//! text → tree, with places → structure by the JSON Schema of a type → parts, each deserialized → notes of the caller
+//! text → tree, with places → structure by a JSON Schema → parts, each deserialized → notes of the caller
 //! ```
 //!
 //! Everything that is wrong comes at once, with file, line, column, dotted key and fix. A place is the keys that lead
@@ -13,10 +13,8 @@ use crate::error::{ErrorKind, LoadError, SceneErrors};
 use crate::key::Key;
 use crate::overriding::Override;
 use crate::read;
-use crate::schema::schema_of;
 use crate::suggest;
 use crate::tree::{Node, Value};
-use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use std::path::Path;
 
@@ -25,9 +23,9 @@ use std::path::Path;
 pub struct InputRules(Rules);
 
 impl InputRules {
-    /// The rules of the files that a type describes.
-    pub fn of<T: JsonSchema>() -> Self {
-        Self(Rules::new(&schema_of::<T>()))
+    /// The rules of the files that a JSON Schema describes.
+    pub fn new(schema: &serde_json::Value) -> Self {
+        Self(Rules::new(schema))
     }
 }
 

@@ -41,7 +41,7 @@ pub use file::{Method, Recorded};
 pub use gallery::{NotInGallery, gallery, gallery_scene, gallery_title};
 pub use overriding::{Override, OverrideValue};
 pub use scene::Scene;
-pub use schema::{schema, schema_of};
+pub use schema::{schema, schema_of, written_schema};
 pub use suggest::fix as suggestion;
 pub use template::{Template, unit_of};
 pub use uniform::Uniform;

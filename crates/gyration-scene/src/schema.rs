@@ -1,4 +1,7 @@
-//! The JSON Schema of a scene, generated from the file's types.
+//! The JSON Schema of a scene: `schema/scene.json`.
+//!
+//! A test derives it from the file's types and compares; `GYRATION_SCHEMA=write` has it written anew. So the program does
+//! without what derives it, a megabyte, and a change of what people may write is seen where changes are read.
 //!
 //! Besides the standard keywords it has `unit` (the SI unit of a quantity; a string must have a unit of the same
 //! dimension).
@@ -14,16 +17,16 @@ pub fn schema() -> Value {
     SCHEMA.clone()
 }
 
-/// The schema, made once.
-#[cfg(not(written_schema))]
-pub(crate) static SCHEMA: LazyLock<Value> = LazyLock::new(schema_of::<crate::file::SceneFile>);
+/// The schema, read once.
+pub(crate) static SCHEMA: LazyLock<Value> = LazyLock::new(|| written_schema(include_str!("../schema/scene.json")));
 
-/// The schema, as the program has written it before this was built.
-#[cfg(written_schema)]
-pub(crate) static SCHEMA: LazyLock<Value> =
-    LazyLock::new(|| serde_json::from_str(include_str!(env!("GYRATION_SCHEMA"))).unwrap_or_default());
+/// A schema that stands in a file; null if that is no JSON, which the tests of its owner exclude.
+pub fn written_schema(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_default()
+}
 
-/// The JSON Schema (draft 2020-12) of a type of file, in the manner of that of a scene.
+/// The JSON Schema (draft 2020-12) of a type of file, in the manner of that of a scene: what tests compare with the
+/// written one.
 pub fn schema_of<T: JsonSchema>() -> Value {
     let settings = SchemaSettings::draft2020_12().with_transform(WithoutNull);
     settings.into_generator().into_root_schema_for::<T>().to_value()
@@ -55,6 +58,26 @@ impl Transform for WithoutNull {
         }
         if object.get("default").is_some_and(Value::is_null) {
             object.remove("default");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::file::SceneFile;
+
+    #[test]
+    fn the_written_schema_is_that_of_the_types() {
+        let derived = schema_of::<SceneFile>();
+        if std::env::var_os("GYRATION_SCHEMA").is_some() {
+            let path = concat!(env!("CARGO_MANIFEST_DIR"), "/schema/scene.json");
+            std::fs::write(path, format!("{derived:#}\n")).unwrap();
+        } else {
+            assert!(
+                schema() == derived,
+                "not that of the types; GYRATION_SCHEMA=write cargo test --package gyration-scene --lib schema"
+            );
         }
     }
 }

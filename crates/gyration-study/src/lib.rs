@@ -44,5 +44,31 @@ pub use value::{Row, Value};
 
 /// The JSON Schema of a study.
 pub fn schema() -> serde_json::Value {
-    gyration_scene::schema_of::<file::StudyFile>()
+    gyration_scene::written_schema(include_str!("../schema/study.json"))
+}
+
+/// The JSON Schemas of a study and of a file of measurements as their types have them: what `schema/` is compared with.
+pub fn derived_schemas() -> [(&'static str, serde_json::Value); 2] {
+    let measurements = gyration_scene::schema_of::<calibration::file::CalibrationFile>();
+    [("study", gyration_scene::schema_of::<file::StudyFile>()), ("calibration", measurements)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_written_schemas_are_those_of_the_types() {
+        for ((name, derived), written) in derived_schemas().into_iter().zip([schema(), calibration::schema()]) {
+            if std::env::var_os("GYRATION_SCHEMA").is_some() {
+                let path = format!("{}/schema/{name}.json", env!("CARGO_MANIFEST_DIR"));
+                std::fs::write(path, format!("{derived:#}\n")).unwrap();
+            } else {
+                assert!(
+                    written == derived,
+                    "{name}: not that of the types; GYRATION_SCHEMA=write cargo test --package gyration-study --lib schema"
+                );
+            }
+        }
+    }
 }

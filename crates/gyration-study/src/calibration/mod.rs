@@ -10,7 +10,7 @@
 mod check;
 mod csv;
 mod curve;
-mod file;
+pub(crate) mod file;
 mod fit;
 mod least_squares;
 mod predict;
@@ -31,7 +31,7 @@ use scale::Scale;
 
 /// The JSON Schema of a file of measurements.
 pub fn schema() -> serde_json::Value {
-    gyration_scene::schema_of::<file::CalibrationFile>()
+    gyration_scene::written_schema(include_str!("../../schema/calibration.json"))
 }
 
 /// Measurements, and the scene whose numbers they tell.

@@ -2,7 +2,7 @@
 
 use super::check::{is_possible, keys_once};
 use super::csv::Csv;
-use super::file::{self, CalibrationFile};
+use super::file;
 use super::scale::Scale;
 use super::{Calibration, Experiment, ExperimentKind, FreeNumber};
 use crate::written::{measured, measured_in, toml};
@@ -14,7 +14,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 /// What a file of measurements may hold.
-static RULES: LazyLock<InputRules> = LazyLock::new(InputRules::of::<CalibrationFile>);
+static RULES: LazyLock<InputRules> = LazyLock::new(|| InputRules::new(&super::schema()));
 
 impl Calibration {
     /// Reads a file; paths in it are relative to its folder.

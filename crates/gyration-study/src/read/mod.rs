@@ -7,7 +7,7 @@ mod probe;
 pub(crate) use probe::probe;
 
 use crate::column::{Column, ending, leading};
-use crate::file::{Recordings, Sampling, StudyFile};
+use crate::file::{Recordings, Sampling};
 use crate::keep::Keep;
 use crate::parameter::{Parameter, Variation};
 use crate::random::MOST_DIMENSIONS;
@@ -21,7 +21,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 /// What a study's file may hold.
-pub(crate) static RULES: LazyLock<InputRules> = LazyLock::new(InputRules::of::<StudyFile>);
+pub(crate) static RULES: LazyLock<InputRules> = LazyLock::new(|| InputRules::new(&crate::schema()));
 
 /// The most runs of a study.
 const MOST_RUNS: u64 = 1 << 40;
