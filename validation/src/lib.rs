@@ -6,12 +6,15 @@
 //!
 //!   validation: row=13 case="…" quantity="…" reference=… measured=… error=… tolerance=… source="…"
 //!
+//! [`published`] declares what other codes and laboratories publish, and runs it.
+//!
 //! [`Experiment`] runs a scene, or a model made by hand, in memory; [`Studied`] some runs of a ready study. Nothing
 //! here computes a reference.
 
 mod answer;
 mod experiment;
 mod facet;
+pub mod published;
 mod studied;
 mod tumbling;
 
