@@ -33,8 +33,8 @@ const HERTZ: Row = Row {
 const PLANE: Row = Row {
     source: "Chung & Ooi, Granular Matter 13 (2011) 643, test 3: the restitution of normal impact is the one put in",
     tolerance: 1e-6,
-    completed: "R = 2.5 mm, 3.9 m/s, 4000 kg/m³ (aluminium oxide) and 7000 kg/m³ (cast iron), no gravity; repulsion α = \
-                1 MPa, d₀ = 10 µm, ν = 6 and damping with the same exponent, whose c = β/α follows from c v(1 + e) = \
+    completed: "R = 2.5 mm, 3.9 m/s, 4000 kg/m³ (aluminium oxide) and 7000 kg/m³ (cast iron), no gravity; repulsion α \
+                = 1 MPa, d₀ = 10 µm, ν = 6 and damping with the same exponent, whose c = β/α follows from c v(1 + e) = \
                 ln((1 + c v)/(1 − c v e)); none for e = 1. From a gap of 2.5 mm.",
     ..EXCHANGE
 };

@@ -32,7 +32,8 @@ const ELLIPSOIDS: Row = Row {
     source: "LAMMPS, unittest/granular (2026), momenta of superellipsoids that collide off centre: P = m v, L = r × P",
     completed: "Ellipsoids of semi-axes 20, 15, 10 mm and 10, 20, 15 mm, 50 g and 80 g, oblique to one another; the \
                 first comes with 1 m/s, 8 mm and 4 mm off the centre of the other; repulsion, damping and friction \
-                with μ = 0.3. L about the origin, spins included. Superellipsoids with flatter faces do not exist here.",
+                with μ = 0.3. L about the origin, spins included. Superellipsoids of flatter faces do not exist \
+                here.",
     ..BASE
 };
 
@@ -256,8 +257,8 @@ pub(super) const ROWS: &[Row] = &[
         published: Words("K α_max^(3/2)"),
         tolerance: 0.0,
         expected: Outside,
-        reason: "A contact here is a power of the gap, without overlap; Hertz's law can be had as a bond, and is run as \
-                 one above.",
+        reason: "A contact here is a power of the gap, without overlap; Hertz's law can be had as a bond, and is run \
+                 as one above.",
         ..BASE
     },
     Row {
