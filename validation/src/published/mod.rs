@@ -10,9 +10,13 @@
 //! Nothing here runs a scene; the runs stand beside the tests.
 
 mod chung_ooi;
+mod finding;
 mod granular;
 mod more;
+#[cfg(test)]
+mod runs;
 
+pub use finding::{Finding, Order, Runs};
 use std::fmt;
 
 /// What is said of a row.
