@@ -1,6 +1,6 @@
 //! What the runs of a row come to: the limit, its order and the verdict, and the line that the page is made from.
 
-use super::{Published, Row, Verdict};
+use super::{Published, Row, Verdict, rows};
 use std::fmt;
 
 /// Differences between runs below this part of the number are what steps and rounding leave, and have no order.
@@ -137,6 +137,7 @@ impl fmt::Display for Line<'_> {
         };
         let tolerance = if finding.is_some() { format!("{:.0e}", row.tolerance) } else { nothing() };
         let fields = [
+            ("place", rows().position(|other| other.key == row.key).map_or_else(nothing, |place| place.to_string())),
             ("key", row.key.to_owned()),
             ("source", row.source.to_owned()),
             ("quantity", row.quantity.to_owned()),

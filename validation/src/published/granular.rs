@@ -68,8 +68,8 @@ const SLIDING: Row = Row {
 };
 
 const BOUNDED: Row = Row {
-    source: "the same with the smooth bound: Q(y) = Q(y₀) − (7/2)cgt, Q = √(1 + y²) − arsinh(1/y), y = cw/μ, u = u₀ − \
-             (2/7)(w₀ − w)",
+    source: "the same slip under the smooth bound of this program, derived: Q(y) = Q(y₀) − (7/2)cgt, Q = √(1 + y²) − \
+             arsinh(1/y), y = cw/μ, u = u₀ − (2/7)(w₀ − w)",
     completed: "The ball thrown flat, with μ = 0.3 and c = 100 s/m.",
     ..THROWN
 };
@@ -77,7 +77,7 @@ const BOUNDED: Row = Row {
 const IMPACT: Row = Row {
     source: "LAMMPS, unittest/granular (2026), impact that slides throughout: J = μ(1 + e)v_n, v_t − J, ω = 5J/(2R)",
     completed: "R = 10 mm, 2500 kg/m³, v_n = 1 m/s, e = 0.8, μ = 0.1, c = 1e6 s/m of the friction (theirs is c → ∞), \
-                no gravity; α = 1 GPa, ν = 6, d₀ = 10 µm at first: the closest gap is 6e-4 R. From a gap of 2 mm. \
+                no gravity; α = 1 GPa, ν = 6, d₀ = 10 µm at first: the closest gap is 5e-4 R. From a gap of 2 mm. \
                 Oblique: v_t = 2 m/s without spin.",
     ..BASE
 };

@@ -5,7 +5,7 @@
 //! codes are hard, and here that is a limit of small gaps: such a row is run at d₀, d₀/2 and d₀/4, and its claim is the
 //! limit. `cargo xtask validate` makes `docs/published.md` of the lines that the runs print:
 //!
-//!   published: key="…" source="…" quantity="…" published="…" … reason="…"
+//!   published: place="…" key="…" source="…" quantity="…" published="…" … reason="…"
 //!
 //! Nothing here runs a scene; the runs stand beside the tests.
 
