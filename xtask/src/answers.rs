@@ -24,18 +24,7 @@ type Key = [String; 3];
 impl Answer {
     /// Reads `key=value` pairs, values quoted or not, in the order of `FIELDS`; none if one is missing.
     pub fn parse(text: &str) -> Option<Self> {
-        let mut rest = text.trim();
-        let mut values: [String; FIELDS.len()] = Default::default();
-        for (field, value) in FIELDS.iter().zip(&mut values) {
-            rest = rest.strip_prefix(field)?.strip_prefix('=')?;
-            let (found, after) = match rest.strip_prefix('"') {
-                Some(quoted) => quoted.split_once('"')?,
-                None => rest.split_once(' ').unwrap_or((rest, "")),
-            };
-            *value = found.to_owned();
-            rest = after.trim_start();
-        }
-        rest.is_empty().then_some(Self { values })
+        fields(FIELDS, text).map(|values| Self { values })
     }
 
     fn key(&self) -> Key {
@@ -47,6 +36,22 @@ impl Answer {
     fn rank(&self) -> (usize, Key) {
         (self.values[0].parse().unwrap_or(usize::MAX), self.key())
     }
+}
+
+/// The values of `key=value` pairs with these keys in this order, quoted or not; none if one is missing.
+pub fn fields<const N: usize>(names: [&str; N], text: &str) -> Option<[String; N]> {
+    let mut rest = text.trim();
+    let mut values = [const { String::new() }; N];
+    for (name, value) in names.iter().zip(&mut values) {
+        rest = rest.strip_prefix(name)?.strip_prefix('=')?;
+        let (found, after) = match rest.strip_prefix('"') {
+            Some(quoted) => quoted.split_once('"')?,
+            None => rest.split_once(' ').unwrap_or((rest, "")),
+        };
+        *value = found.to_owned();
+        rest = after.trim_start();
+    }
+    rest.is_empty().then_some(values)
 }
 
 const PREAMBLE: &str = "\

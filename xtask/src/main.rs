@@ -1,11 +1,12 @@
 //! Chores of the repository, run as `cargo xtask CHORE`.
 //!
 //! `test` is the one test command: format, lints, documentation, every test of the workspace, those of the viewer in a
-//! browser, the Python tests, the table of known answers, and licences and advisories of dependencies. `validate` runs
-//! the problems with a known answer and writes `docs/known-answers.md` from what they print. `gallery` runs the scenes,
-//! draws their pictures and writes `docs/gallery.md`. `golden` writes the sums of their recordings. `compare` tells
-//! whether two commits give the same recordings, `fill` fills comments and pages, `campaign` tries random scenes, `web`
-//! builds the site, `docs` the book in HTML, `wheel` wheels for others, `supply` lists the dependencies.
+//! browser, the Python tests, the tables of known answers and of what others publish, and licences and advisories of
+//! dependencies. `validate` runs these problems and writes `docs/known-answers.md` and `docs/published.md` from what
+//! they print. `gallery` runs the scenes, draws their pictures and writes `docs/gallery.md`. `golden` writes the sums
+//! of their recordings. `compare` tells whether two commits give the same recordings, `fill` fills comments and pages,
+//! `campaign` tries random scenes, `web` builds the site, `docs` the book in HTML, `wheel` wheels for others, `supply`
+//! lists the dependencies.
 //!
 //! This program knows no mechanics; it starts other programs and reads their output.
 
@@ -26,6 +27,7 @@ mod layout;
 mod package;
 mod parallel;
 mod programs;
+mod published;
 mod python;
 mod recording;
 mod report;
@@ -46,7 +48,7 @@ usage: cargo xtask CHORE
 
   test           run every check; the last line is `N passed, N failed`
   test --fast    the same without documentation, viewer, Python and dependencies
-  validate       run the problems with a known answer and rewrite docs/known-answers.md
+  validate       run the problems with a known answer; rewrite docs/known-answers.md and docs/published.md
   gallery [NAME…]  run the scenes named, or all, and rewrite their pictures and docs/gallery.md
   golden         run the gallery and write the sums of its recordings, validation/golden.txt
   fill [FILE…]   fill comments and pages to the width of a line

@@ -3,10 +3,12 @@
 //!   test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.05s
 //!   Tests  1 failed | 11 passed | 2 skipped (14)               of the viewer
 //!   validation: row=13 case="…" …
+//!   published: key="…" source="…" …
 
 use crate::answers::Answer;
+use crate::published::Finding;
 
-/// Sums over test programs, and the known answers that they printed.
+/// Sums over test programs, and the known answers and published numbers that they printed.
 #[derive(Debug, Default)]
 pub struct Tally {
     /// Tests that passed.
@@ -17,7 +19,9 @@ pub struct Tally {
     pub ignored: usize,
     /// Known answers, in the order of printing.
     pub answers: Vec<Answer>,
-    /// Lines that began as a known answer and could not be read.
+    /// Published numbers, in the order of printing.
+    pub findings: Vec<Finding>,
+    /// Lines that began as a known answer or a published number and could not be read.
     pub unreadable: Vec<String>,
 }
 
@@ -37,6 +41,11 @@ impl Tally {
                 Some(answer) => self.answers.push(answer),
                 None => self.unreadable.push(line.to_owned()),
             }
+        } else if let Some(text) = line.strip_prefix("published: ") {
+            match Finding::parse(text) {
+                Some(finding) => self.findings.push(finding),
+                None => self.unreadable.push(line.to_owned()),
+            }
         }
     }
 
@@ -46,6 +55,7 @@ impl Tally {
         self.failed += other.failed;
         self.ignored += other.ignored;
         self.answers.extend(other.answers);
+        self.findings.extend(other.findings);
         self.unreadable.extend(other.unreadable);
     }
 }
@@ -80,10 +90,11 @@ mod tests {
     }
 
     #[test]
-    fn a_damaged_known_answer_is_kept_for_complaint() {
+    fn a_damaged_line_is_kept_for_complaint() {
         let mut tally = Tally::default();
         tally.read("validation: row=3 case=\"x\" quantity=\"y\"");
-        assert!(tally.answers.is_empty());
-        assert_eq!(tally.unreadable.len(), 1);
+        tally.read("published: key=\"x\" source=\"y\"");
+        assert!(tally.answers.is_empty() && tally.findings.is_empty());
+        assert_eq!(tally.unreadable.len(), 2);
     }
 }

@@ -3,7 +3,7 @@
 use crate::cargo::cargo;
 use crate::programs::{self, TestPrograms};
 use crate::steps::{Steps, succeeds};
-use crate::{answers, campaign, fill, gallery, golden, package, python, root, supply, validate, viewer};
+use crate::{answers, campaign, fill, gallery, golden, package, published, python, root, supply, validate, viewer};
 use std::process::{Command, ExitCode};
 use std::sync::mpsc::{self, Receiver, Sender};
 
@@ -59,7 +59,7 @@ fn rust(steps: &mut Steps, extent: Extent, built: &Sender<TestPrograms>) {
         programs::run(steps, "tests", &found.programs, |program| {
             program.arg("--show-output");
         });
-        check_known_answers(steps);
+        check_pages(steps);
         gallery::check(steps, &found.gyration);
         golden::check(steps, &found.gyration);
         campaign::check(steps, &found.gyration);
@@ -104,17 +104,17 @@ fn install_component(steps: &mut Steps, command: &str) {
     }
 }
 
-/// The page of known answers must list those that the tests printed; digits may differ.
-fn check_known_answers(steps: &mut Steps) {
+/// The pages of known answers and of what others publish must list those that the tests printed; digits may differ.
+fn check_pages(steps: &mut Steps) {
     for line in std::mem::take(&mut steps.tally.unreadable) {
-        steps.complain(format!("cannot read the known answer: {line}"));
+        steps.complain(format!("cannot read the line: {line}"));
     }
-    let page = std::fs::read_to_string(validate::page_path()).unwrap_or_default();
-    let differences = answers::differences(&page, &steps.tally.answers);
-    if !differences.is_empty() {
-        steps.complain(format!(
-            "docs/known-answers.md is out of step (run `cargo xtask validate`): {}",
-            differences.join("; ")
-        ));
+    let page = |path| std::fs::read_to_string(path).unwrap_or_default();
+    let answers = answers::differences(&page(validate::page_path()), &steps.tally.answers);
+    let published = published::differences(&page(validate::published_path()), &steps.tally.findings);
+    for (name, differences) in [("docs/known-answers.md", answers), ("docs/published.md", published)] {
+        if !differences.is_empty() {
+            steps.complain(format!("{name} is out of step (run `cargo xtask validate`): {}", differences.join("; ")));
+        }
     }
 }

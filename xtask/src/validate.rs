@@ -1,8 +1,8 @@
-//! Running the problems with a known answer, and writing their page.
+//! Running the problems with a known answer and those that others publish, and writing their pages.
 
 use crate::cargo::cargo;
 use crate::steps::Steps;
-use crate::{answers, root};
+use crate::{answers, published, root};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -11,29 +11,37 @@ pub fn page_path() -> PathBuf {
     root().join("docs/known-answers.md")
 }
 
-/// Runs the problems; if all pass, writes the page.
+/// The page of what others publish.
+pub fn published_path() -> PathBuf {
+    root().join("docs/published.md")
+}
+
+/// Runs the problems; if all pass, writes the pages.
 pub fn run() -> ExitCode {
     let mut steps = Steps::default();
     let mut command = cargo();
     command.args(["test", "--package", "gyration-validation", "--no-fail-fast", "--", "--show-output"]);
     if steps.run_tests("known answers", &mut command) {
-        write_page(&mut steps);
+        write_pages(&mut steps);
     } else {
-        eprintln!("xtask: the page is left as it is");
+        eprintln!("xtask: the pages are left as they are");
     }
     if steps.conclude() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-fn write_page(steps: &mut Steps) {
-    let answers = &steps.tally.answers;
+fn write_pages(steps: &mut Steps) {
+    let (answers, findings) = (&steps.tally.answers, &steps.tally.findings);
     let unreadable = steps.tally.unreadable.first();
     let outcome = match unreadable {
-        Some(line) => Err(format!("cannot read the known answer: {line}")),
-        None => std::fs::write(page_path(), answers::page(answers))
-            .map_err(|error| format!("{}: {error}", page_path().display())),
+        Some(line) => Err(format!("cannot read the line: {line}")),
+        None => write(page_path(), answers::page(answers)).and(write(published_path(), published::page(findings))),
     };
     match outcome {
-        Ok(()) => println!("{}: {} known answers", page_path().display(), answers.len()),
+        Ok(()) => println!("{} known answers and {} published numbers", answers.len(), findings.len()),
         Err(reason) => steps.complain(reason),
     }
+}
+
+fn write(path: PathBuf, page: String) -> Result<(), String> {
+    std::fs::write(&path, page).map_err(|error| format!("{}: {error}", path.display()))
 }
