@@ -76,9 +76,9 @@ pub(super) const ROWS: &[Row] = &[
         published: Number(1.759_737),
         tolerance: 2e-2,
         completed: "The last step of fifteen boxes of 7.5 × 25 × 50 mm and 700 kg/m³: twelve were declared first, \
-                    where the wave still grows and is at 1.724. α = 1 kPa, d₀ = 0.1 mm, ν = 6, damping c = 50 s/m, friction \
-                    c = 300 s/m at the foot and none between them; reach 5 mm. One run: the tolerance is that of a row \
-                    which is not long.",
+                    where the wave still grows and is at 1.724. α = 1 kPa, d₀ = 0.1 mm, ν = 6, damping c = 50 s/m, \
+                    friction c = 300 s/m at the foot and none between them; reach 5 mm. One run: the tolerance is that \
+                    of a row which is not long.",
         ..STACK
     },
     Row {
