@@ -1,9 +1,9 @@
 //! Quadrature rules for curved surfaces.
 //!
 //! Gauss–Legendre rules on [−1, 1], exact for polynomials of degree 2n − 1, are computed once by Newton's iteration on
-//! the three-term recurrence and kept for the life of the program, in place: no call allocates. On an interval next to
-//! a singularity they are graded by x = ± δ sinh y, δ the distance of the singularity: in y it stays at iπ/2 however
-//! close it is, so that the number of points grows only like ln(length/δ).
+//! the three-term recurrence and kept for the life of the program: only the first call of each allocates. On an
+//! interval next to a singularity they are graded by x = ± δ sinh y, δ the distance of the singularity: in y it stays
+//! at iπ/2 however close it is, so that the number of points grows only like ln(length/δ).
 
 use std::sync::OnceLock;
 
@@ -19,10 +19,9 @@ pub(crate) const MAX_GAUSS: usize = 128;
 
 /// The Gauss–Legendre rule of `points` nodes, clamped to 1 ..= [`MAX_GAUSS`], in increasing order.
 pub(crate) fn gauss_legendre(points: usize) -> &'static [QuadratureNode] {
-    static RULES: [OnceLock<[QuadratureNode; MAX_GAUSS]>; MAX_GAUSS] = [const { OnceLock::new() }; MAX_GAUSS];
+    static RULES: [OnceLock<Box<[QuadratureNode]>>; MAX_GAUSS] = [const { OnceLock::new() }; MAX_GAUSS];
     let n = points.clamp(1, MAX_GAUSS);
-    let unused = QuadratureNode { at: 0.0, weight: 0.0 };
-    &RULES[n - 1].get_or_init(|| std::array::from_fn(|i| if i < n { legendre_node(n, i) } else { unused }))[..n]
+    RULES[n - 1].get_or_init(|| (0..n).map(|i| legendre_node(n, i)).collect())
 }
 
 /// The i-th zero of P_n and its weight 2/((1 − x²) P_n'(x)²), by Newton from Tricomi's estimate.
