@@ -4,7 +4,7 @@
 import { createHash } from "node:crypto";
 import type { Plugin } from "vite";
 import { defineConfig } from "vitest/config";
-import { ownShaders } from "./shaders";
+import { ownShaders } from "./shaders.ts";
 
 /** Where the program puts the data of a report; it must stand once in the page, before the script. */
 const PLACEHOLDER = "<!--gyration-data-->";

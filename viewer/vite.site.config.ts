@@ -3,7 +3,7 @@
 // Beside them the page expects engine.wasm, gallery.json and hashes.json.
 
 import { defineConfig, type Plugin } from "vite";
-import { ownShaders } from "./shaders";
+import { ownShaders } from "./shaders.ts";
 
 /** Gives the page the name under which a web server finds it. */
 function index(): Plugin {

@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "vitest";
-import { withoutUnused } from "../../shaders";
+import { withoutUnused } from "../../shaders.ts";
 
 const LIBRARY = readFileSync(
   join(import.meta.dirname, "../../node_modules/three/build/three.module.js"),
