@@ -126,6 +126,17 @@ fn check_tells_copies_in_one_place() {
     assert_eq!(parsed(resolved, &[]).built().state, scene.built().state);
 }
 
+#[test]
+fn check_tells_bodies_of_one_kind_once() {
+    let few = CROWD.replace("potential", "# potential").replace("[40, 5, 1]", "[3, 1, 1]");
+    let other =
+        "[[body]]\nname = \"stone\"\nshape = { sphere = { radius = 0.02 } }\ndensity = 1250\nposition = [1, 0, 0]\n";
+    let scene = parsed(&(few + other), &[]);
+    let text = Survey::of(&scene).unwrap().text(&scene).unwrap();
+    assert!(text.contains("\nbodies grain-0, grain-1, grain-2\n  kind            rigid\n"), "{text}");
+    assert!(text.contains("\nbody stone\n  kind            rigid\n"), "{text}");
+}
+
 /// Each grain swings in a potential of its own place: x(t) = x₀ cos ωt + (v₀/ω) sin ωt with ω² = 4/m.
 #[test]
 fn derivatives_reach_all_copies() {

@@ -5,8 +5,9 @@ use crate::key::Key;
 use std::collections::{BTreeMap, VecDeque};
 
 /// Words that people write, the tables in which they do, and what to write there.
-const MEANT: [(&[&str], &[&str], &str); 9] = [
+const MEANT: [(&[&str], &[&str], &str); 10] = [
     (&["spin", "omega"], &["body"], "`angular_velocity = [x, y, z]` says how it turns"),
+    (&["point", "position", "center", "through"], &["plane"], "write `origin`, a point of the plane"),
     (&["diameter"], &["sphere", "cylinder", "cone", "capsule"], "write `radius`, half of it"),
     (
         &["thickness", "length", "depth"],

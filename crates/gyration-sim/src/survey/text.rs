@@ -1,12 +1,12 @@
 //! The survey of a scene as text, as `gyration check` prints it.
 
-use super::bodies::Survey;
+use super::bodies::{BodySurvey, Survey};
 use super::crowd::{MOST_BODIES, sorts, write_crowd};
 use super::joints::write_joints;
 use super::meetings::write_meetings;
 use super::springs::write_springs;
 use super::supports::write_supports;
-use super::words::write_body;
+use super::words::write_body_words;
 use crate::format::vector;
 use gyration_scene::units::shown;
 use gyration_scene::{NotToml, Scene};
@@ -60,9 +60,23 @@ fn in_words(scene: &Scene, survey: &Survey) -> String {
         write_crowd(&mut text, &survey.bodies);
         return text;
     }
-    for body in &survey.bodies {
-        text.push('\n');
-        write_body(&mut text, body);
+    for (names, words) in alike(&survey.bodies) {
+        let bodies = if names.len() > 1 { "bodies" } else { "body" };
+        let _ = write!(text, "\n{bodies} {}\n{words}", names.join(", "));
     }
     text
+}
+
+/// What is told of each body, with the names of those of which the same is told.
+fn alike(bodies: &[BodySurvey]) -> Vec<(Vec<&str>, String)> {
+    let mut told: Vec<(Vec<&str>, String)> = Vec::new();
+    for body in bodies {
+        let mut words = String::new();
+        write_body_words(&mut words, body);
+        match told.iter_mut().find(|(_, known)| *known == words) {
+            Some((names, _)) => names.push(&body.name),
+            None => told.push((vec![&body.name], words)),
+        }
+    }
+    told
 }

@@ -12,6 +12,11 @@ use std::fmt::{self, Write as _};
 /// A body, under its name.
 pub(super) fn write_body(text: &mut String, body: &BodySurvey) {
     let _ = writeln!(text, "body {}", body.name);
+    write_body_words(text, body);
+}
+
+/// A body without its name.
+pub(super) fn write_body_words(text: &mut String, body: &BodySurvey) {
     write_solid(text, body);
     for pair in &body.supports {
         write_pair(text, pair, body.kind.material.is_some());
