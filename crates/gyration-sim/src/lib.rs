@@ -10,6 +10,7 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod adapter;
+mod crowd;
 pub mod events;
 mod first_steps;
 pub mod format;
@@ -39,6 +40,7 @@ pub mod survey;
 pub mod waves;
 
 pub use adapter::Tolerance;
+pub use crowd::CrowdState;
 pub use first_steps::{FirstSteps, MomentumChange};
 pub use outcome::{Outcome, Reason, Stop, limit_in_words};
 pub use plan::{RestCriterion, RunPlan};

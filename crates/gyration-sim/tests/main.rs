@@ -6,6 +6,7 @@ mod contracting;
 mod copies;
 mod corpus;
 mod counts;
+mod crowd;
 mod deforming;
 mod dissipation;
 mod equations;

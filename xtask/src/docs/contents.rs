@@ -36,6 +36,7 @@ const PARTS: [(&str, &[&str]); 7] = [
             "docs/modes.md",
             "docs/bands.md",
             "docs/known-answers.md",
+            "docs/published.md",
         ],
     ),
     ("Project", &["CHANGELOG.md", "CONTRIBUTING.md", "ARCHITECTURE.md"]),

@@ -4,6 +4,7 @@ mod bodies;
 mod columns;
 mod component;
 mod cost;
+mod crowd;
 mod distance;
 mod drive;
 mod effort;
@@ -109,6 +110,7 @@ fn panels(recorded: &RecordedScene, quantity: PlotQuantity, measures: &[String])
         PlotQuantity::Strip => return Ok(vec![Panel::Strip(Strip::of(recorded)?)]),
         PlotQuantity::Motion => return Ok(vec![Panel::Motion(Motion::of(recorded)?)]),
         PlotQuantity::Laws => return laws_of(recorded.recording),
+        PlotQuantity::Crowd => return crowd::panels(recorded),
         PlotQuantity::Height => vec![motion::height(recorded)?],
         PlotQuantity::Gap => vec![motion::gap(recorded)?],
         PlotQuantity::Stretch => stretch::charts(recorded)?,

@@ -29,13 +29,15 @@ pub enum PlotQuantity {
     Cost,
     /// Where the work of the drive goes, and its power.
     Drive,
+    /// What many bodies do together.
+    Crowd,
     /// Tractions and resistances of the contact laws against distance.
     Laws,
 }
 
 impl PlotQuantity {
     /// All of them.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Overview,
         Self::Strip,
         Self::Motion,
@@ -48,6 +50,7 @@ impl PlotQuantity {
         Self::Distance,
         Self::Cost,
         Self::Drive,
+        Self::Crowd,
         Self::Laws,
     ];
 
@@ -86,6 +89,11 @@ impl PlotQuantity {
                 ("cost", "Cost of transport of bodies that contract: work of the drive by weight and distance")
             }
             Self::Drive => ("drive", "Where the work of the drive goes, and its power"),
+            Self::Crowd => (
+                "crowd",
+                "What many bodies do together: their kinetic energy about the mean, granular temperature, contacts of a body, \
+                 and the forces between them at the end",
+            ),
             Self::Laws => ("laws", "Tractions and resistances against distance, forces on bodies, gaps of rest"),
         }
     }

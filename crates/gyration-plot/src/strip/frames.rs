@@ -17,8 +17,10 @@ const PROBES: usize = 400;
 const STROBE_TIMES: [usize; 4] = [16, 12, 9, 7];
 /// Pictures of one time each: a number that fills rows of many lengths.
 pub const FRAMES: usize = 12;
-/// Bodies drawn at most.
+/// Bodies drawn at most, each to be told from the others.
 const MOST_BODIES: usize = 60;
+/// Bodies of a crowd drawn at most.
+const MOST_OF_CROWD: usize = 2000;
 /// A centre that has moved less than this fraction of the size has not moved to the eye.
 const VISIBLE: f64 = 0.02;
 /// Half the side of a patch of a support, as a fraction of the largest body's size.
@@ -33,6 +35,15 @@ pub struct Outlines {
     pub bodies: Vec<Silhouette>,
     /// The supports.
     pub grounds: Vec<Ground>,
+}
+
+/// A force from one place to another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Chain {
+    /// Where it begins and ends.
+    pub ends: [Point; 2],
+    /// The force, of the largest that is drawn.
+    pub weight: f64,
 }
 
 /// Outlines at successive times.
@@ -54,6 +65,8 @@ pub struct Strip {
     pub hues: Vec<usize>,
     /// Names of the colours, where they do not stand for single bodies.
     pub classes: Vec<String>,
+    /// Forces of a crowd, the weakest first.
+    pub chains: Vec<Chain>,
 }
 
 /// A body that is sampled, at one time.
@@ -70,36 +83,55 @@ struct Watched<'a> {
     view: View,
     /// The probe with which the picture ends.
     last: usize,
+    /// How many bodies are drawn.
+    drawn: usize,
 }
 
 impl<'a> Watched<'a> {
     fn of(recorded: &'a RecordedScene<'a>) -> Result<Self, PlotError> {
+        Self::of_first(MOST_BODIES, recorded)
+    }
+
+    /// With so many bodies at most.
+    fn of_first(most: usize, recorded: &'a RecordedScene<'a>) -> Result<Self, PlotError> {
         recorded.span()?;
         let probes = probes(recorded)?;
-        let drawn = recorded.bodies.len().min(MOST_BODIES);
+        let drawn = recorded.bodies.len().min(most);
         let ways: Vec<Vec<Vec3>> = (0..drawn).map(|body| way(body, &probes)).collect();
         let strays = strays(&ways, &recorded.bodies[..drawn].iter().map(|body| body.size).collect::<Vec<_>>());
         let view = View::of(&motion(recorded, &probes, &strays), recorded.up());
         let last = until_rest(recorded, &probes);
-        Ok(Self { recorded, probes, strays, view, last })
+        Ok(Self { recorded, probes, strays, view, last, drawn })
     }
 
     /// So many times, evenly.
     fn frames(&self, count: usize) -> Vec<Outlines> {
         let indices = evenly(count, self.last + 1);
-        indices.map(|index| frame(self.recorded, &self.probes[index], &self.view)).collect()
+        indices.map(|index| self.frame(&self.probes[index])).collect()
+    }
+
+    fn frame(&self, probe: &Probe) -> Outlines {
+        frame(self.recorded, probe, &self.view, self.drawn)
+    }
+
+    /// What is seen at a sample alone.
+    fn at(&self, row: usize) -> Result<Strip, PlotError> {
+        let (time, poses) = self.recorded.poses(row)?;
+        let strip = self.strip(vec![self.frame(&Probe { time, poses })], true);
+        // What is seen then fills the picture, not where it comes from and goes.
+        Ok(Strip { paths: Vec::new(), ..strip })
     }
 
     /// The strip of these times.
     fn strip(&self, frames: Vec<Outlines>, shared: bool) -> Strip {
-        let Self { recorded, probes, strays, view, .. } = self;
-        let drawn = recorded.bodies.len().min(MOST_BODIES);
+        let Self { recorded, probes, strays, view, drawn, .. } = self;
         let path = |body: usize| probes.iter().map(|probe| view.project(&probe.poses[body].position)).collect();
         Strip {
             shared,
             frames,
-            paths: (0..drawn).map(path).collect(),
+            paths: (0..*drawn).map(path).collect(),
             left_out: recorded.bodies.len() - drawn,
+            chains: Vec::new(),
             room: (view.project(&strays.middle), strays.radius),
             strays: strays.bodies.iter().map(|body| (*body, recorded.bodies[*body].name.clone())).collect(),
             hues: recorded.classes.of_body.clone(),
@@ -140,10 +172,28 @@ impl Strip {
             None => rows.end - 1,
             Some(time) => nearest(rows, time, |row| Ok(recorded.poses(row)?.0))?,
         };
-        let (time, poses) = recorded.poses(row)?;
-        let strip = watched.strip(vec![frame(recorded, &Probe { time, poses }, &watched.view)], true);
-        // What is seen then fills the picture, not where it comes from and goes.
-        Ok(Strip { paths: Vec::new(), ..strip })
+        watched.at(row)
+    }
+
+    /// A crowd at a sample, with forces from one place to another \[N\].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn with_forces(
+        recorded: &RecordedScene,
+        row: usize,
+        forces: impl IntoIterator<Item = ([Vec3; 2], f64)>,
+    ) -> Result<Self, PlotError> {
+        let watched = Watched::of_first(MOST_OF_CROWD, recorded)?;
+        let mut forces: Vec<([Vec3; 2], f64)> = forces.into_iter().collect();
+        forces.sort_by(|(_, one), (_, other)| one.total_cmp(other));
+        let largest = forces.last().map_or(1.0, |(_, force)| *force);
+        let chain = |(ends, force): ([Vec3; 2], f64)| Chain {
+            ends: ends.map(|end| watched.view.project(&end)),
+            weight: force / largest,
+        };
+        let chains = forces.into_iter().map(chain).collect();
+        Ok(Self { chains, ..watched.at(row)? })
     }
 
     /// So many times of a recording, evenly, each a picture of its own, and whether a support moves.
@@ -237,8 +287,8 @@ fn until_rest(recorded: &RecordedScene, probes: &[Probe]) -> usize {
     (still + probes.len() / 20).min(probes.len() - 1)
 }
 
-fn frame(recorded: &RecordedScene, probe: &Probe, view: &View) -> Outlines {
-    let bodies = recorded.bodies.iter().zip(&probe.poses).take(MOST_BODIES).enumerate();
+fn frame(recorded: &RecordedScene, probe: &Probe, view: &View, drawn: usize) -> Outlines {
+    let bodies = recorded.bodies.iter().zip(&probe.poses).take(drawn).enumerate();
     let bodies: Vec<Silhouette> = bodies.map(|(index, (body, pose))| Silhouette::of(index, body, pose, view)).collect();
     let mean = probe.poses.iter().map(|pose| pose.position).sum::<Vec3>() / probe.poses.len().max(1) as f64;
     let size = recorded.bodies.iter().map(|body| body.size).fold(0.0, f64::max);

@@ -17,6 +17,11 @@ const GUTTER: f64 = 10.0;
 /// Depth of the hatching below a support [pt].
 pub(super) const HATCH: f64 = 6.0;
 
+/// Width of the line of the largest force [pt].
+const WIDEST: f64 = 3.0;
+/// What is weaker is drawn as if it were this part of the largest force.
+const LEAST_WEIGHT: f64 = 0.05;
+
 /// Points of an outline that are nearer to each other are one [pt].
 const RESOLUTION: f64 = 0.4;
 /// Bodies narrower than this are drawn without edges [pt].
@@ -167,6 +172,10 @@ fn draw_shared(strip: &Strip, bounds: &Viewport, drawing: &mut Page, area: Rect)
     for (index, moment) in strip.frames.iter().enumerate() {
         let age = if last == 0 { 1.0 } else { index as f64 / last as f64 };
         moment.bodies.iter().for_each(|body| draw_body((body, hue(body)), 0.12 + 0.3 * age, &map, drawing, frame));
+    }
+    for chain in &strip.chains {
+        let stroke = Stroke::solid(color::INK, WIDEST * chain.weight.max(LEAST_WEIGHT));
+        drawing.line(chain.ends.map(|end| map.place(end)).to_vec(), stroke, Some(frame));
     }
     strip.mark_strays(&strip.frames[last], (bounds, &map), drawing);
     for moment in &strip.frames {

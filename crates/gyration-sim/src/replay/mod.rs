@@ -17,8 +17,9 @@ pub use error::ReplayError;
 pub use rebuild::scene;
 pub use snapshot::{BodySnapshot, Snapshot};
 
+use crate::crowd::CrowdState;
 use gyration::body::{Body, BodyKind};
-use gyration::dynamics::{ContactParts, Workspace, acting, contact_parts};
+use gyration::dynamics::{ContactParts, Exchange, Workspace, acting, contact_parts};
 use gyration::homogeneous::observe_homogeneous;
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::model::Model;
@@ -109,6 +110,28 @@ impl Replay {
         let parts = |index| contact_parts(&instant.at(index), scratch).map_err(outside);
         (0..model.bodies.len()).map(parts).collect()
     }
+
+    /// What many bodies do together at a sample.
+    ///
+    /// # Errors
+    /// Those of [`cauchy_stress`](Replay::cauchy_stress).
+    pub fn crowd(&mut self, row: usize) -> Result<CrowdSnapshot, ReplayError> {
+        let state = self.state(row)?;
+        let Self { model, workspace, .. } = self;
+        let outside = |source| ReplayError::Inadmissible { row, source };
+        let (instant, scratch) = workspace.read(model, &state).map_err(outside)?;
+        let (state, contacts) = CrowdState::with_contacts(&instant, scratch).map_err(outside)?;
+        Ok(CrowdSnapshot { state, contacts })
+    }
+}
+
+/// What many bodies do together at a sample.
+#[derive(Debug, Clone)]
+pub struct CrowdSnapshot {
+    /// What all do together.
+    pub state: CrowdState,
+    /// The contacts that count.
+    pub contacts: Vec<Exchange>,
 }
 
 /// A body's part of the state from its row: the inverse of `State::motion`.

@@ -7,6 +7,7 @@ mod verdict;
 pub use ledger::LedgerSummary;
 pub use verdict::{Balance, OpenLedgers, Verdict};
 
+use crate::crowd::CrowdState;
 use crate::events::EVENT_KINDS;
 use crate::outcome::Outcome;
 use crate::run::Simulation;
@@ -19,6 +20,9 @@ use nalgebra::{Rotation3, UnitQuaternion};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::time::Duration;
+
+/// Bodies whose momenta are listed; of more there is a summary.
+const MOST_BODIES: usize = 8;
 
 /// The summary of a run.
 #[derive(Debug, Clone, Serialize)]
@@ -37,6 +41,9 @@ pub struct RunSummary {
     pub ledger: LedgerSummary,
     /// The bodies at the end.
     pub bodies: Vec<BodySummary>,
+    /// What they do together at the end; none of few, and where that could not be looked at.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crowd: Option<CrowdState>,
     /// Smallest gap over the samples [m]; none without supports.
     pub smallest_gap: Option<f64>,
     /// How many events of each kind.
@@ -158,7 +165,10 @@ impl RunSummary {
                 })
             })
             .collect();
+        let crowd = read.as_mut().filter(|_| model.bodies.len() > MOST_BODIES);
+        let crowd = crowd.and_then(|(instant, scratch)| CrowdState::of(instant, scratch).ok());
         Self {
+            crowd,
             in_words: outcome.in_words(),
             outcome,
             time: state.time,

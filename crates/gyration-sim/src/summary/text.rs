@@ -1,15 +1,13 @@
 //! The summary of a run for people: outcome, steps, ledger, momenta, events.
 
 use super::verdict::ROUNDING;
-use super::{Attitude, BodySummary, LedgerSummary, RunSummary};
+use super::{Attitude, BodySummary, LedgerSummary, MOST_BODIES, RunSummary};
+use crate::crowd::CrowdState;
 use crate::format::{duration, significant, vector};
 use gyration_record::{RecordError, Recording};
 use gyration_scene::Scene;
 use serde_json::Value;
 use std::fmt::Write as _;
-
-/// Bodies whose momenta are listed; of more there is a summary.
-const MOST_BODIES: usize = 8;
 
 impl RunSummary {
     /// The summary as lines of text, as `gyration run` prints it; `start` are the energies [J] at t = 0, in the order
@@ -21,6 +19,7 @@ impl RunSummary {
         text += &ledger(&self.ledger, start);
         text += &dissipation(&self.ledger);
         text += &if self.bodies.len() > MOST_BODIES { crowd(&self.bodies) } else { bodies(&self.bodies) };
+        text += &self.crowd.as_ref().map(together).unwrap_or_default();
         text += &events(&self.events);
         if let Some(hash) = &self.row_hash {
             let _ = writeln!(text, "hash       {hash} of all rows");
@@ -197,6 +196,33 @@ fn crowd(bodies: &[BodySummary]) -> String {
     }
     let total = vector(&total(bodies, |body| &body.linear_momentum));
     let _ = writeln!(text, "  {:<20} {total} kg m/s in all", "momentum");
+    text
+}
+
+/// What many bodies do together at the end: how they move about their mean, and what they touch.
+fn together(crowd: &CrowdState) -> String {
+    let mut text = String::new();
+    if let Some(temperature) = crowd.temperature {
+        let parts = [crowd.drift, crowd.agitation, crowd.turning].map(|energy| significant(energy, 5));
+        let [drift, agitation, turning] = parts;
+        let _ = writeln!(text, "  {:<20} {} m²/s², granular", "temperature", significant(temperature, 5));
+        let _ = writeln!(
+            text,
+            "  {:<20} {drift} J with their mean, {agitation} J about it, {turning} J turning and straining",
+            "kinetic energy"
+        );
+    }
+    let [between, supports] = crowd.contacts;
+    if let (Some(mean), Some(largest)) = (crowd.mean_force, crowd.largest_force) {
+        let (mean, largest) = (significant(mean, 5), significant(largest, 5));
+        let _ = writeln!(
+            text,
+            "  {:<20} {between} between bodies, {supports} with supports, {} of a body; {mean} N in the mean, at most \
+                {largest} N",
+            "contacts",
+            significant(crowd.coordination, 4),
+        );
+    }
     text
 }
 
