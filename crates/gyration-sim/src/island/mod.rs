@@ -175,6 +175,11 @@ impl Island {
         &self.members
     }
 
+    /// The first of its bodies, by which it is known.
+    pub fn first_body(&self) -> usize {
+        self.members[0]
+    }
+
     /// The model of its bodies.
     pub fn model(&self) -> &Model {
         self.system.model()

@@ -37,7 +37,7 @@ impl Simulation {
     pub(crate) fn land(&mut self) {
         let time = self.state.time;
         self.plan.end = time;
-        let beyond = |island: &&mut Box<Island>| island.time() > time && island.restart_point.is_some();
+        let beyond = |island: &&mut Island| island.time() > time && island.restart_point.is_some();
         for island in self.partition.islands.iter_mut().filter(beyond) {
             let landed = island.come_to(time, &self.plan, time);
             debug_assert!(landed.is_ok(), "a step that was made can be cut");

@@ -16,6 +16,7 @@
 
 mod assembled;
 mod control;
+mod islands;
 mod meeting;
 mod partition;
 mod samples;
@@ -101,8 +102,7 @@ impl Simulation {
         let speeds = speeds.map_err(outside)?;
         let setting = Setting { model, start, speeds: &speeds, plan: &plan };
         let islands = members.into_iter().map(|members| Island::new(setting, members, !changes).map(Box::new));
-        let mut islands = islands.collect::<Result<Vec<_>, _>>().map_err(RunError::at_start)?;
-        islands.shrink_to_fit();
+        let islands = islands.collect::<Result<Vec<_>, _>>().map_err(RunError::at_start)?;
         Ok(Self {
             partition: Partition::new(model.bodies.len(), islands, changes),
             start: start.clone(),
@@ -247,8 +247,7 @@ impl Simulation {
             return Err(RunError::at_start(stop));
         }
         self.state.next_sample = 1;
-        let islands = self.partition.islands.iter_mut().map(|island| &mut **island);
-        self.shared.with_scratch(islands, |island| island.begin(&self.plan));
+        self.shared.with_scratch(self.partition.islands.iter_mut(), |island| island.begin(&self.plan));
         match self.partition.islands.iter_mut().any(|island| island.system.may_be_given_up()) {
             true => Err(RunError::at_start(Stop::by_interruption(self.state.time))),
             false => Ok(()),

@@ -9,6 +9,7 @@
 
 use crate::island::{Island, PathBound, Paths, Setting};
 use crate::outcome::Stop;
+use crate::run::islands::Islands;
 use crate::run::meeting::{Approaching, Meeting};
 use crate::run_state::Settled;
 use gyration::model::Model;
@@ -23,14 +24,10 @@ const FRESH: usize = 4;
 /// They are laid anew where there are more of them than so many a body.
 const STALE: usize = 8;
 
-/// Islands; boxed, since each is kilobytes and a change moves all behind it.
-pub(crate) type Islands = Vec<Box<Island>>;
-
 /// The bodies of a run in islands.
 pub(crate) struct Partition {
-    /// In order of their first bodies.
     pub islands: Islands,
-    /// The island of each body, and its place there.
+    /// The first body of the island of each body, and its place there.
     island_of: Vec<(usize, usize)>,
     /// Whether islands meet and part; without cutoff distances they do not.
     changes: bool,
@@ -38,6 +35,10 @@ pub(crate) struct Partition {
     paths: BoxTree,
     /// Meetings of islands that may be, some of them of islands that are no more.
     queue: BinaryHeap<Reverse<Meeting>>,
+    /// The first bodies of islands that wait to fall apart, some of them of islands that are no more.
+    parting: Vec<usize>,
+    /// The first bodies of the islands that the last change has made.
+    made: Vec<usize>,
     /// How many paths have been given a number.
     revisions: u64,
     /// The time of the last change [s].
@@ -47,9 +48,9 @@ pub(crate) struct Partition {
 /// A change of the partition.
 #[derive(Debug, Clone, PartialEq)]
 enum Change {
-    /// Two islands become one.
+    /// Two islands, by their first bodies, become one.
     Merge([usize; 2]),
-    /// An island falls apart.
+    /// An island, by its first body, falls apart.
     Split(usize),
 }
 
@@ -90,22 +91,25 @@ pub(super) fn may_be_islands(model: &Model, islands: &[Vec<usize>]) -> bool {
 }
 
 impl Partition {
-    /// Of islands in order of their first bodies.
-    pub fn new(bodies: usize, islands: Islands, changes: bool) -> Self {
+    /// Of islands that hold each of so many bodies once.
+    pub fn new(bodies: usize, islands: impl IntoIterator<Item = Box<Island>>, changes: bool) -> Self {
         let mut this = Self {
-            islands,
+            islands: Islands::for_bodies(bodies),
             island_of: vec![(0, 0); bodies],
             changes,
             paths: BoxTree::default(),
             queue: BinaryHeap::new(),
+            parting: Vec::new(),
+            made: Vec::new(),
             revisions: 0,
             changed: f64::NEG_INFINITY,
         };
-        this.number();
+        this.put(islands);
+        this.made = Vec::new();
         this
     }
 
-    /// The island of a body, and its place there.
+    /// The first body of the island of a body, by which it is known, and the place of the body there.
     pub fn island_of(&self, body: usize) -> (usize, usize) {
         self.island_of[body]
     }
@@ -126,9 +130,32 @@ impl Partition {
     /// # Errors
     /// [`Stop`] where the islands cannot go on as they are to.
     pub fn change(&mut self, until: f64, changing: Changing) -> Result<bool, Stop> {
-        let Some((time, change)) = self.first_change(changing.setting.model).filter(|(time, _)| *time < until) else {
+        let first = self.first_change(changing.setting.model);
+        self.carry_out(first, until, changing)
+    }
+
+    /// The same where, since the last change, only the islands that it has made have moved, and all have come to the
+    /// time.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn change_again(&mut self, until: f64, changing: Changing) -> Result<bool, Stop> {
+        let made = std::mem::take(&mut self.made);
+        debug_assert!(made.iter().all(|first| self.islands[*first].time() >= until), "all have come to the time");
+        let first = self.first_after(&made, changing.setting.model);
+        self.carry_out(first, until, changing)
+    }
+
+    /// The islands that the last change has made.
+    pub fn made(&self) -> &[usize] {
+        &self.made
+    }
+
+    fn carry_out(&mut self, first: Option<(f64, Change)>, until: f64, changing: Changing) -> Result<bool, Stop> {
+        let Some((time, change)) = first.filter(|(time, _)| *time < until) else {
             return Ok(false);
         };
+        self.made.clear();
         debug_assert!(time >= self.changed, "changes come in order of time: {time} after {}", self.changed);
         self.changed = time;
         match change {
@@ -149,48 +176,56 @@ impl Partition {
             return None;
         }
         let known = self.least_time()?;
-        self.look(model);
-        let first = match (self.first_merge(), self.first_split()) {
-            (Some(merge), Some(split)) if split.0 < merge.0 => Some(split),
-            (merge, split) => merge.or(split),
-        };
-        first.filter(|(time, _)| *time <= known)
+        self.parting.clear();
+        let all: Vec<usize> = self.islands.iter().map(Island::first_body).collect();
+        self.first_after(&all, model).filter(|(time, _)| *time <= known)
     }
 
-    /// Queues the meetings within steps that nobody has looked at.
-    fn look(&mut self, model: &Model) {
+    /// The earliest change, where these islands alone have moved since it was looked for.
+    fn first_after(&mut self, moved: &[usize], model: &Model) -> Option<(f64, Change)> {
+        self.look(moved, model);
+        let is_parting = |first: &&usize| self.islands[**first].state.is_parting;
+        self.parting.extend(moved.iter().filter(is_parting));
+        match (self.first_merge(), self.first_split()) {
+            (Some(merge), Some(split)) if split.0 < merge.0 => Some(split),
+            (merge, split) => merge.or(split),
+        }
+    }
+
+    /// Queues the meetings within steps of these islands that nobody has looked at.
+    fn look(&mut self, moved: &[usize], model: &Model) {
         let unseen = |island: &Island| island.paths.as_ref().map_or(0, Paths::unseen);
-        let fresh: Vec<usize> = (0..self.islands.len()).filter(|index| unseen(&self.islands[*index]) > 0).collect();
-        let count: usize = fresh.iter().map(|index| self.islands[*index].members().len()).sum();
+        let fresh: Vec<usize> = moved.iter().copied().filter(|first| unseen(&self.islands[*first]) > 0).collect();
+        let count: usize = fresh.iter().map(|first| self.islands[*first].members().len()).sum();
         let bodies = self.island_of.len();
         if FRESH * count > bodies || self.paths.count() > STALE * bodies {
             self.paths = BoxTree::new(self.islands.iter().flat_map(|island| boxes(model, island, usize::MAX)));
         } else {
-            for island in fresh.iter().map(|index| &self.islands[*index]) {
+            for island in fresh.iter().map(|first| &self.islands[*first]) {
                 boxes(model, island, unseen(island)).for_each(|(bounds, body)| self.paths.insert(bounds, body));
             }
         }
-        for index in fresh {
-            let Some(paths) = &mut self.islands[index].paths else { continue };
+        for first in fresh {
+            let Some(paths) = &mut self.islands[first].paths else { continue };
             let (unseen, number) = (paths.unseen(), self.revisions);
             self.revisions += u64::from(paths.revision().is_none());
             paths.saw(number);
-            self.look_at(model, index, unseen);
+            self.look_at(model, first, unseen);
         }
     }
 
     /// Queues the meetings within the last steps of an island, of which so many are new, with steps of other islands
     /// that were looked at: those that were not look at these.
-    fn look_at(&mut self, model: &Model, index: usize, unseen: usize) {
+    fn look_at(&mut self, model: &Model, first: usize, unseen: usize) {
         let Self { islands, island_of, paths, queue, .. } = self;
-        let island = &islands[index];
+        let island = &islands[first];
         let Some((own, revision)) = known(island) else { return };
         let rules = model.rules();
         for (bounds, body) in boxes(model, island, unseen) {
             let new = last(own.body(island_of[body].1), unseen);
             let reaches = rules.of(body).iter().filter_map(|rule| Some(rules.all()[*rule].reach?.longest()));
             let bounds = bounds.wider(reaches.fold(0.0, f64::max));
-            let mut beside: Vec<usize> = paths.touching(&bounds).filter(|other| island_of[*other].0 != index).collect();
+            let mut beside: Vec<usize> = paths.touching(&bounds).filter(|other| island_of[*other].0 != first).collect();
             beside.sort_unstable();
             beside.dedup();
             for other in beside {
@@ -228,11 +263,14 @@ impl Partition {
         None
     }
 
-    /// The first island that waits to fall apart.
-    fn first_split(&self) -> Option<(f64, Change)> {
-        let waiting = self.islands.iter().enumerate().filter(|(_, island)| island.state.is_parting);
-        let first = waiting.min_by(|(_, a), (_, b)| a.time().total_cmp(&b.time()));
-        first.map(|(index, island)| (island.time(), Change::Split(index)))
+    /// The first island that waits to fall apart; of several at one time that of the first body.
+    fn first_split(&mut self) -> Option<(f64, Change)> {
+        let Self { islands, parting, .. } = self;
+        let waiting = |first: usize| islands.get(first).filter(|island| island.state.is_parting);
+        parting.retain(|first| waiting(*first).is_some());
+        let waiting = parting.iter().filter_map(|first| Some((waiting(*first)?.time(), *first)));
+        let first = waiting.min_by(|(a, one), (b, other)| a.total_cmp(b).then(one.cmp(other)));
+        first.map(|(time, first)| (time, Change::Split(first)))
     }
 
     /// Makes one island of two at a time.
@@ -242,8 +280,7 @@ impl Partition {
         for island in [one, other] {
             self.islands[island].come_to(time, setting.plan, since)?;
         }
-        let second = self.islands.remove(other);
-        let first = self.islands.remove(one);
+        let (first, second) = (self.islands.take(one), self.islands.take(other));
         let mut members = [first.members(), second.members()].concat();
         members.sort_unstable();
         let works = [&first, &second].map(|island| island.done());
@@ -264,9 +301,9 @@ impl Partition {
     }
 
     /// Lets an island fall apart where it stands.
-    fn split(&mut self, index: usize, changing: Changing) -> Result<(), Stop> {
+    fn split(&mut self, first: usize, changing: Changing) -> Result<(), Stop> {
         let Changing { setting, settled, .. } = changing;
-        let island = &self.islands[index];
+        let island = &self.islands[first];
         let whole = island.kinetic_energy(0..island.members().len());
         let components = island.parts();
         let count = components.iter().count() as f64;
@@ -277,8 +314,8 @@ impl Partition {
             let in_play = island.state.in_play.share(island.done(), share);
             Island::successor(setting, members, &[island], in_play)
         });
-        let mut pieces = pieces.map(|piece| piece.map(Box::new)).collect::<Result<Islands, Stop>>()?;
-        let island = self.islands.remove(index);
+        let mut pieces = pieces.map(|piece| piece.map(Box::new)).collect::<Result<Vec<_>, Stop>>()?;
+        let island = self.islands.take(first);
         // Its events are handed on by any of the pieces.
         pieces[0].take_events([&*island]);
         settle_works(settled, setting, [&*island]);
@@ -286,30 +323,14 @@ impl Partition {
         Ok(())
     }
 
-    /// Puts islands to the others, all in order of their first bodies.
+    /// Puts islands to the others.
     fn put(&mut self, islands: impl IntoIterator<Item = Box<Island>>) {
-        self.islands.extend(islands);
-        self.islands.sort_by_key(|island| island.members()[0]);
-        self.number();
-    }
-
-    /// Notes the island of each body.
-    fn number(&mut self) {
-        for (index, island) in self.islands.iter().enumerate() {
-            island.members().iter().enumerate().for_each(|(place, body)| self.island_of[*body] = (index, place));
+        for island in islands {
+            let first = island.first_body();
+            island.members().iter().enumerate().for_each(|(place, body)| self.island_of[*body] = (first, place));
+            self.made.push(first);
+            self.islands.put(island);
         }
-        debug_assert!(self.is_valid(), "islands ascend, and each body is in one of them");
-    }
-
-    /// Whether the islands ascend by their first bodies, and each body is where it is said to be.
-    fn is_valid(&self) -> bool {
-        let is_home = |(body, (island, place)): (usize, &(usize, usize))| {
-            self.islands.get(*island).and_then(|island| island.members().get(*place)) == Some(&body)
-        };
-        let count: usize = self.islands.iter().map(|island| island.members().len()).sum();
-        self.islands.is_sorted_by_key(|island| island.members()[0])
-            && count == self.island_of.len()
-            && self.island_of.iter().enumerate().all(is_home)
     }
 }
 

@@ -27,7 +27,7 @@ impl Simulation {
         let end = self.sample_time(self.state.next_sample + rows);
         self.portion = end;
         let is_fixed = self.partition.is_fixed();
-        if let ([only], true) = (&mut self.partition.islands[..], is_fixed) {
+        if let (Some(only), true) = (self.partition.islands.only(), is_fixed) {
             let size = only.integrator.next_size();
             let is_long = size == 0.0 || only.time() + LONGER * size > end;
             only.keep_restart_point(only.time() > self.state.time || is_long);
@@ -73,7 +73,7 @@ impl Simulation {
     pub(super) fn sample(&mut self, time: f64) {
         let Self { partition, assembled, state, .. } = self;
         assembled.begin(time, &state.settled);
-        for island in &mut partition.islands {
+        for island in partition.islands.iter_mut() {
             island.sample(time);
             assembled.add(island, &island.sampled);
         }
@@ -90,7 +90,7 @@ impl Simulation {
         rows.interval.peak_forces.clear();
         if plan.extras.peak_forces() {
             rows.interval.peak_forces.resize(model.bodies.len(), 0.0);
-            for island in &mut partition.islands {
+            for island in partition.islands.iter_mut() {
                 let found = island.peaks_at(time, state.next_sample, plan);
                 for (body, force) in island.members().iter().zip(found) {
                     rows.interval.peak_forces[*body] = force;

@@ -83,7 +83,8 @@ impl Simulation {
                 stop = Some(found);
             }
             let time = self.least_time();
-            match self.change_islands(until) {
+            let all_came = stop.is_none() && time >= until;
+            match self.change_islands(until, all_came) {
                 Ok(false) => {}
                 // What stopped there may never come to pass.
                 Ok(true) => {
@@ -141,14 +142,13 @@ impl Simulation {
     /// Lets all islands come to a time, or make so many steps towards it, all together.
     fn reach(&mut self, until: f64, most: u64) {
         let is_step = self.is_step(until);
-        if let [only] = &mut self.partition.islands[..] {
+        if let Some(only) = self.partition.islands.only() {
             return only.reach(until, most, &self.plan);
         }
         let (plan, shared, threads) = (&self.plan, &self.shared, self.plan.threads.unwrap_or(NonZeroUsize::MIN));
         let count = self.partition.islands.iter().filter(|island| island.time() < until).count();
         let most = (most / count.max(1) as u64).max(1);
-        let islands = self.partition.islands.iter_mut().map(|island| &mut **island);
-        let behind = islands.filter(|island| island.time() < until);
+        let behind = self.partition.islands.iter_mut().filter(|island| island.time() < until);
         if threads.get() == 1 || count == 1 || is_step {
             return shared.with_scratch(behind, |island| island.reach(until, most, plan));
         }
@@ -161,20 +161,38 @@ impl Simulation {
         });
     }
 
-    /// Carries out the earliest change of the islands, if it comes before a time; whether there was one.
+    /// Carries out the earliest change of the islands, if it comes before a time; whether there was one. Where all have
+    /// come to that time, those that it has made follow at once, and so do the changes behind it: what a change costs
+    /// then does not depend on how many islands there are.
     ///
     /// # Errors
     /// [`Stop`] where the islands cannot go on as they are to.
-    fn change_islands(&mut self, until: f64) -> Result<bool, Stop> {
-        let Self { model, start, speeds, plan, partition, state, .. } = self;
+    fn change_islands(&mut self, until: f64, all_came: bool) -> Result<bool, Stop> {
+        let Self { model, start, speeds, plan, partition, state, shared, .. } = self;
         let setting = Setting { model, start, speeds, plan };
-        partition.change(until, Changing { setting, since: state.time, settled: &mut state.settled })
+        let since = state.time;
+        let mut is_changed = partition.change(until, Changing { setting, since, settled: &mut state.settled })?;
+        let any = is_changed;
+        while is_changed && all_came {
+            let made = partition.made().to_vec();
+            for first in &made {
+                let island = std::iter::once(&mut partition.islands[*first]);
+                shared.with_scratch(island, |island| island.reach(until, MOST_STEPS, plan));
+            }
+            let is_there = |first: &usize| {
+                let island = &partition.islands[*first];
+                island.time() >= until && island.stop.is_none() && !island.system.was_interrupted()
+            };
+            let changing = Changing { setting, since, settled: &mut state.settled };
+            is_changed = made.iter().all(is_there) && partition.change_again(until, changing)?;
+        }
+        Ok(any)
     }
 
     /// To where a window has come that went until a time [s]: where the island is that has come least far, but not
     /// beyond what it was to see, since islands may change there, nor beyond its portion of rows.
     fn window_reached(&mut self, until: f64) -> f64 {
-        let only_steps = matches!(&self.partition.islands[..], [only] if only.restart_point.is_none());
+        let only_steps = self.partition.islands.only().is_some_and(|only| only.restart_point.is_none());
         let least = self.least_time().min(if only_steps { f64::INFINITY } else { self.portion });
         match (self.partition.is_fixed(), self.is_step(until)) {
             (true, _) => least,
@@ -224,7 +242,7 @@ impl Simulation {
     /// A time that all islands have come to is that of the run.
     pub(super) fn commit(&mut self, time: f64) {
         self.state.time = time;
-        for island in &mut self.partition.islands {
+        for island in self.partition.islands.iter_mut() {
             island.commit(self.state.time);
         }
     }
@@ -234,7 +252,7 @@ impl Simulation {
         let mut found = std::mem::take(&mut self.found);
         found.clear();
         let time = self.state.time;
-        for island in &mut self.partition.islands {
+        for island in self.partition.islands.iter_mut() {
             let known = island.events.partition_point(|event| event.time <= time);
             found.extend(island.events.drain(..known));
         }
