@@ -1,7 +1,7 @@
 //! The JSON Schema of a scene: `schema/scene.json`.
 //!
-//! A test derives it from the file's types and compares; `GYRATION_SCHEMA=write` has it written anew. So the program does
-//! without what derives it, a megabyte, and a change of what people may write is seen where changes are read.
+//! A test derives it from the file's types and compares; `GYRATION_SCHEMA=write` has it written anew. So the program
+//! does without what derives it, a megabyte, and a change of what people may write is seen where changes are read.
 //!
 //! Besides the standard keywords it has `unit` (the SI unit of a quantity; a string must have a unit of the same
 //! dimension).
@@ -76,7 +76,7 @@ mod tests {
         } else {
             assert!(
                 schema() == derived,
-                "not that of the types; GYRATION_SCHEMA=write cargo test --package gyration-scene --lib schema"
+                "not that of the types; GYRATION_SCHEMA=write cargo test -p gyration-scene --lib schema"
             );
         }
     }

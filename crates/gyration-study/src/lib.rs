@@ -66,7 +66,7 @@ mod tests {
             } else {
                 assert!(
                     written == derived,
-                    "{name}: not that of the types; GYRATION_SCHEMA=write cargo test --package gyration-study --lib schema"
+                    "{name}: not that of the types; GYRATION_SCHEMA=write cargo test -p gyration-study --lib schema"
                 );
             }
         }

@@ -89,11 +89,9 @@ impl PlotQuantity {
                 ("cost", "Cost of transport of bodies that contract: work of the drive by weight and distance")
             }
             Self::Drive => ("drive", "Where the work of the drive goes, and its power"),
-            Self::Crowd => (
-                "crowd",
-                "What many bodies do together: their kinetic energy about the mean, granular temperature, contacts of a body, \
-                 and the forces between them at the end",
-            ),
+            Self::Crowd => {
+                ("crowd", "What many bodies do together: energies, temperature, contacts, and the forces at the end")
+            }
             Self::Laws => ("laws", "Tractions and resistances against distance, forces on bodies, gaps of rest"),
         }
     }

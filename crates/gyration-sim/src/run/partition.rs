@@ -26,6 +26,7 @@ const STALE: usize = 8;
 
 /// The bodies of a run in islands.
 pub(crate) struct Partition {
+    /// In order of their first bodies.
     pub islands: Islands,
     /// The first body of the island of each body, and its place there.
     island_of: Vec<(usize, usize)>,
@@ -151,6 +152,7 @@ impl Partition {
         &self.made
     }
 
+    /// Carries out a change, if it comes before a time.
     fn carry_out(&mut self, first: Option<(f64, Change)>, until: f64, changing: Changing) -> Result<bool, Stop> {
         let Some((time, change)) = first.filter(|(time, _)| *time < until) else {
             return Ok(false);
