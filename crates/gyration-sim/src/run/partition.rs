@@ -125,6 +125,15 @@ impl Partition {
         self.islands.iter().map(|island| island.time()).reduce(f64::min)
     }
 
+    /// The same of those that do not wait to fall apart; infinite if all do.
+    pub fn known_time(&self) -> f64 {
+        self.islands
+            .iter()
+            .filter(|island| !island.state.is_parting)
+            .map(|island| island.time())
+            .fold(f64::INFINITY, f64::min)
+    }
+
     /// Carries out the earliest change, if it comes before a time; whether there was one. One at that time is left to
     /// the next window.
     ///
@@ -135,15 +144,16 @@ impl Partition {
         self.carry_out(first, until, changing)
     }
 
-    /// The same where, since the last change, only the islands that it has made have moved, and all have come to the
-    /// time.
+    /// The same where, since the last change, only the islands that it has made have moved, and all but those that wait
+    /// to fall apart have come to a time that is `known`. What waits falls apart before anything later.
     ///
     /// # Errors
     /// As there.
-    pub fn change_again(&mut self, until: f64, changing: Changing) -> Result<bool, Stop> {
+    pub fn change_again(&mut self, known: f64, until: f64, changing: Changing) -> Result<bool, Stop> {
         let made = std::mem::take(&mut self.made);
-        debug_assert!(made.iter().all(|first| self.islands[*first].time() >= until), "all have come to the time");
-        let first = self.first_after(&made, changing.setting.model);
+        let has_come = |island: &Island| island.time() >= known || island.state.is_parting;
+        debug_assert!(made.iter().all(|first| has_come(&self.islands[*first])), "all have come to {known}");
+        let first = self.first_after(&made, changing.setting.model).filter(|(time, _)| *time <= known);
         self.carry_out(first, until, changing)
     }
 

@@ -83,8 +83,7 @@ impl Simulation {
                 stop = Some(found);
             }
             let time = self.least_time();
-            let all_came = stop.is_none() && time >= until;
-            match self.change_islands(until, all_came) {
+            match self.change_islands(until, stop.is_none()) {
                 Ok(false) => {}
                 // What stopped there may never come to pass.
                 Ok(true) => {
@@ -161,30 +160,32 @@ impl Simulation {
         });
     }
 
-    /// Carries out the earliest change of the islands, if it comes before a time; whether there was one. Where all have
-    /// come to that time, those that it has made follow at once, and so do the changes behind it: what a change costs
-    /// then does not depend on how many islands there are.
+    /// Carries out the earliest change of the islands, if it comes before a time; whether there was one. Where none has
+    /// stopped, those that it has made follow at once to the time that all have come to, and so do the changes up to
+    /// there: what a change costs then does not depend on how many islands there are.
     ///
     /// # Errors
     /// [`Stop`] where the islands cannot go on as they are to.
-    fn change_islands(&mut self, until: f64, all_came: bool) -> Result<bool, Stop> {
+    fn change_islands(&mut self, until: f64, none_stopped: bool) -> Result<bool, Stop> {
+        let known = until.min(self.partition.known_time());
         let Self { model, start, speeds, plan, partition, state, shared, .. } = self;
         let setting = Setting { model, start, speeds, plan };
         let since = state.time;
         let mut is_changed = partition.change(until, Changing { setting, since, settled: &mut state.settled })?;
         let any = is_changed;
-        while is_changed && all_came {
+        while is_changed && none_stopped {
             let made = partition.made().to_vec();
             for first in &made {
                 let island = std::iter::once(&mut partition.islands[*first]);
-                shared.with_scratch(island, |island| island.reach(until, MOST_STEPS, plan));
+                shared.with_scratch(island, |island| island.reach(known, MOST_STEPS, plan));
             }
             let is_there = |first: &usize| {
                 let island = &partition.islands[*first];
-                island.time() >= until && island.stop.is_none() && !island.system.was_interrupted()
+                let has_come = island.time() >= known || island.state.is_parting;
+                has_come && island.stop.is_none() && !island.system.was_interrupted()
             };
             let changing = Changing { setting, since, settled: &mut state.settled };
-            is_changed = made.iter().all(is_there) && partition.change_again(until, changing)?;
+            is_changed = made.iter().all(is_there) && partition.change_again(known, until, changing)?;
         }
         Ok(any)
     }
