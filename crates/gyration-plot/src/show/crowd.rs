@@ -33,8 +33,11 @@ pub fn panels(recorded: &RecordedScene) -> Result<Vec<Panel>, PlotError> {
     let count = rows.len().min(SAMPLES);
     let chosen = (0..count).map(|k| rows.start + k * (rows.len() - 1) / (count - 1).max(1));
     let mut states: Vec<(f64, CrowdState)> = Vec::with_capacity(count);
+    let mut at_the_end = Vec::new();
     for row in chosen {
-        states.push((times[row], replay.crowd(row).map_err(no_replay)?.state));
+        let CrowdSnapshot { state, contacts } = replay.crowd(row).map_err(no_replay)?;
+        states.push((times[row], state));
+        at_the_end = contacts;
     }
     let line = |number: Number| -> Vec<Point> { states.iter().map(|(time, state)| [*time, number(state)]).collect() };
     let x = time_axis(recorded)?;
@@ -61,13 +64,12 @@ pub fn panels(recorded: &RecordedScene) -> Result<Vec<Panel>, PlotError> {
         chart("Contacts of a body, with a hundredth of the mean force or more", "contacts", "", vec![contacts]),
     ];
     let last = rows.end - 1;
-    let CrowdSnapshot { contacts, .. } = replay.crowd(last).map_err(no_replay)?;
     let (_, poses) = recorded.poses(last)?;
     let places: Vec<Vec3> = poses.iter().map(|pose| pose.position).collect();
     panels.push(Panel::Strip(Strip::with_forces(
         recorded,
         last,
-        contacts.iter().filter_map(|one| ends(one, &places)),
+        at_the_end.iter().filter_map(|one| ends(one, &places)),
     )?));
     Ok(panels)
 }

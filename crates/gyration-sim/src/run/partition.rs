@@ -343,6 +343,16 @@ impl Partition {
             self.made.push(first);
             self.islands.put(island);
         }
+        debug_assert!(self.is_valid(), "each body is in one island, and where it is said to be");
+    }
+
+    /// Whether each body is where it is said to be, and in one island alone.
+    fn is_valid(&self) -> bool {
+        let is_home = |(body, (first, place)): (usize, &(usize, usize))| {
+            self.islands.get(*first).and_then(|island| island.members().get(*place)) == Some(&body)
+        };
+        let count: usize = self.islands.iter().map(|island| island.members().len()).sum();
+        count == self.island_of.len() && self.island_of.iter().enumerate().all(is_home)
     }
 }
 

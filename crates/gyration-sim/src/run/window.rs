@@ -167,6 +167,9 @@ impl Simulation {
     /// # Errors
     /// [`Stop`] where the islands cannot go on as they are to.
     fn change_islands(&mut self, until: f64, none_stopped: bool) -> Result<bool, Stop> {
+        if self.partition.is_fixed() {
+            return Ok(false);
+        }
         let known = until.min(self.partition.known_time());
         let Self { model, start, speeds, plan, partition, state, shared, .. } = self;
         let setting = Setting { model, start, speeds, plan };
