@@ -14,6 +14,7 @@
 mod answer;
 mod experiment;
 mod facet;
+mod meeting;
 pub mod published;
 mod studied;
 mod tumbling;
@@ -21,5 +22,6 @@ mod tumbling;
 pub use answer::{Answer, Case, largest};
 pub use experiment::{Experiment, Run};
 pub use facet::FacetBody;
+pub use meeting::{momenta, wave};
 pub use studied::{Studied, TWO};
 pub use tumbling::{Turning, passage, threshold};

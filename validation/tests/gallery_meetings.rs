@@ -1,23 +1,8 @@
 //! The gallery's `collide`, `soft-collision`, `dice-pair`, `overhang`, `cradle` and `dominoes`: bodies that meet.
 
-use gyration::model::Model;
 use gyration::state::State;
-use gyration::tensor::{Vec3, axial};
 use gyration_sim::Outcome;
-use gyration_validation::{Case, Experiment, Run};
-
-/// Σ m ṗ₀ and Σ (p₀ × m ṗ₀ + axial of Ṗ J Pᵀ).
-fn momenta(model: &Model, state: &State) -> (Vec3, Vec3) {
-    let mut sum = (Vec3::zeros(), Vec3::zeros());
-    for (index, body) in model.bodies.iter().enumerate() {
-        let motion = state.motion(model, index);
-        let momentum = body.solid.mass.mass * motion.velocity.velocity;
-        let own = motion.velocity.gradient_rate * body.solid.mass.euler_tensor * motion.placement.gradient.transpose();
-        sum.0 += momentum;
-        sum.1 += motion.placement.position.cross(&momentum) + axial(&own);
-    }
-    sum
-}
+use gyration_validation::{Case, Experiment, momenta, wave};
 
 #[test]
 fn boxes_and_rubber_balls_that_collide_keep_their_momenta() {
@@ -73,19 +58,6 @@ fn the_last_ball_of_a_cradle_takes_nearly_all_of_the_speed() {
     // Balls that touch and act at no distance: all of it. Here the others tremble with the rest.
     assert!(last / first > 0.95 && last / first < 1.0, "{first} {last}");
     assert!(run.relative_residual() < 1e-7);
-}
-
-/// The speeds with which a wave of falling dominoes goes from each to the next but the first [m/s].
-fn wave(run: &Run, dominoes: usize, pitch: f64) -> Vec<f64> {
-    // The time at which a domino has turned by 2°, on a line between samples.
-    let turned = 0.035;
-    let passed = |index: usize| {
-        let sine = run.column(&format!("domino-{index}.P_xz"));
-        let after = sine.iter().position(|it| *it > turned).unwrap_or_else(|| panic!("domino-{index} stands"));
-        let share = (turned - sine[after - 1]) / (sine[after] - sine[after - 1]);
-        run.times[after - 1] + share * (run.times[after] - run.times[after - 1])
-    };
-    (1..dominoes - 1).map(|index| pitch / (passed(index + 1) - passed(index))).collect()
 }
 
 #[test]

@@ -168,6 +168,19 @@ fn laws_on_a_support_with_a_shape_are_drawn() {
 }
 
 #[test]
+fn what_a_crowd_does_is_drawn_and_one_body_is_none() {
+    let sandbox = recorded(&balls(""));
+    let told = drawn(&sandbox, &["scene.gyr", "crowd"]);
+    for expected in ["Kinetic energy", "about the mean", "Granular temperature", "[m²/s²]", "Contacts of a body"] {
+        assert!(told.contains(expected), "no {expected:?} in {told}");
+    }
+    let one = Sandbox::with_ball();
+    one.done(&["run", "ball.toml", "--quiet"]);
+    let said = one.refused(2, &["plot", "ball.gyr", "crowd"]);
+    assert!(said.stderr.contains("there is one body"), "{}", said.stderr);
+}
+
+#[test]
 fn columns_are_drawn_by_their_names_and_a_span_is_all_that_is_seen() {
     let sandbox = recorded(&balls(""));
     let told = drawn(&sandbox, &["scene.gyr", "--columns", "a.vx,b.v*,*.gap"]);

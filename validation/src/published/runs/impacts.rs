@@ -2,8 +2,7 @@
 
 use super::{ALPHA, DENSITY, GRAVITY, RADIUS, damping, floor, halved_each, last, laws, row, scene, sphere};
 use crate::published::Runs;
-use crate::{Experiment, Run};
-use gyration::tensor::{Vec3, axial};
+use crate::{Run, momenta};
 
 #[test]
 fn impacts_keep_their_momentum_and_return_what_the_damping_leaves() {
@@ -24,19 +23,6 @@ fn impacts_keep_their_momentum_and_return_what_the_damping_leaves() {
     row("granular-restitution-wall").check(Runs::Once(-velocity));
 }
 
-/// Σ m ṗ₀ and Σ (p₀ × m ṗ₀ + axial of Ṗ J Pᵀ) at the end.
-fn momenta(experiment: &Experiment, run: &Run) -> (Vec3, Vec3) {
-    let mut sum = (Vec3::zeros(), Vec3::zeros());
-    for (index, body) in experiment.model.bodies.iter().enumerate() {
-        let motion = run.end.motion(&experiment.model, index);
-        let momentum = body.solid.mass.mass * motion.velocity.velocity;
-        let own = motion.velocity.gradient_rate * body.solid.mass.euler_tensor * motion.placement.gradient.transpose();
-        sum.0 += momentum;
-        sum.1 += motion.placement.position.cross(&momentum) + axial(&own);
-    }
-    sum
-}
-
 #[test]
 fn ellipsoids_that_collide_off_centre_keep_their_momenta() {
     let contact = format!("[[contact]]\nbetween = [\"a\", \"b\"]\n{}", laws(ALPHA, 1e-4, 0.3, 100.0, Some(0.3)));
@@ -51,7 +37,7 @@ fn ellipsoids_that_collide_off_centre_keep_their_momenta() {
         + &body("b", [0.01, 0.02, 0.015], 0.08, [0.0; 3], 0.0, [-1.0, 1.0, 2.0]);
     let experiment = scene([0.0; 3], 0.2, 0.2, &(contact + &bodies));
     let run = experiment.run();
-    let (linear, angular) = momenta(&experiment, &run);
+    let (linear, angular) = momenta(&experiment.model, &run.end);
     let spins = [0, 1].map(|body| run.end.motion(&experiment.model, body).angular_velocity().norm());
     assert!(spins.iter().all(|spin| *spin > 1.0), "they have hardly met: {spins:?}");
     row("granular-ellipsoids-momentum").check(Runs::Once(linear.x));

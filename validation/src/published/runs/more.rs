@@ -2,7 +2,7 @@
 
 use super::{ALPHA, DENSITY, GRAVITY, floor, halved_each, laws, row, scene, sphere};
 use crate::published::Runs;
-use crate::{Experiment, Run};
+use crate::{Experiment, Run, wave};
 
 /// Velocities of the upper and the lower of two balls after the fall, with this gap between them.
 fn stack(d0: f64, between: f64) -> [f64; 2] {
@@ -80,22 +80,14 @@ fn a_row_of_dominoes_comes_to_the_speed_of_its_wave() {
         text += &format!(
             "[[body]]\nname = \"domino-{domino}\"\ngroup = \"domino\"\ndensity = 700\n\
              shape = {{ box = {{ size = [{thickness}, 0.025, {height}] }} }}\nposition = [{:?}, 0, 0.02512]\n",
-            pitch * f64::from(domino)
+            pitch * domino as f64
         );
         if domino == 0 {
             text += "velocity = [0.5, 0, 0.075]\nangular_velocity = [0, 20, 0]\n";
         }
     }
     let run = Experiment::of_scene(&text).run();
-    // The time at which a domino has turned by 2°, on a line between samples.
-    let turned = 0.035;
-    let passed = |domino: usize| {
-        let sine = run.column(&format!("domino-{domino}.P_xz"));
-        let after = sine.iter().position(|it| *it > turned).unwrap_or_else(|| panic!("domino-{domino} stands"));
-        let share = (turned - sine[after - 1]) / (sine[after] - sine[after - 1]);
-        run.times[after - 1] + share * (run.times[after] - run.times[after - 1])
-    };
-    let [before, last] = [13, 14].map(passed);
-    let speed = pitch / (last - before);
+    let speeds = wave(&run, dominoes, pitch);
+    let speed = speeds[speeds.len() - 1];
     row("dominoes").check(Runs::Once(speed / (GRAVITY * height).sqrt()));
 }
