@@ -155,6 +155,41 @@ fn samples_windows_and_threads_leave_no_trace() {
     assert!(again.checkpoint == one.checkpoint && format!("{:?}", again.kept.rows) == format!("{:?}", one.kept.rows));
 }
 
+/// Balls that fall into a corner of three planes, so that islands meet and part while events come and go.
+#[test]
+fn events_of_a_step_that_is_cut_stay_what_they_were() {
+    let events = |sample: &str| {
+        let mut text = HEAD.replace("gravity = [0, 0, 0]", "gravity = [0, 0, -9.81]");
+        for (name, normal) in [("left", [1.0, 0.0, 0.4]), ("right", [-1.0, 0.2, 0.5]), ("back", [0.0, -1.0, 0.7])] {
+            text += &format!(
+                "[[support]]\nname = \"{name}\"\nplane = {{ normal = {normal:?} }}\n[[contact]]\nsupport = \"{name}\"\n\
+                 repulsion = {{ alpha = 1e6, nu = 6, d0 = 0.01 }}\ndamping = {{ beta = 1e4, nu = 3, d0 = 0.01 }}\n"
+            );
+        }
+        for k in 0..16 {
+            text += &format!(
+                "[[body]]\nname = \"b{k}\"\ngroup = \"ball\"\nshape = {{ sphere = {{ radius = 0.05 }} }}\nmass = 1\n\
+                 position = [{}, {}, {}]\n",
+                0.11 * (f64::from(k % 2) - 0.5),
+                -0.11 * f64::from(k / 2 % 2) - 0.01 * f64::from(k / 4),
+                0.5 + 0.13 * f64::from(k / 4),
+            );
+        }
+        let scene = parsed(&text, &["time.end=0.6", sample]);
+        let built = scene.built();
+        let found = run(&(built.model.clone(), built.state.clone(), RunPlan::from(built)));
+        assert_eq!(found.outcome, Outcome::Completed);
+        (found.kept.events, found.state)
+    };
+    let (one, end) = events("time.sample=0.1");
+    assert!(one.len() > 100, "{}", one.len());
+    for sample in ["time.sample=0.01", "time.sample=0.0003"] {
+        let (other, there) = events(sample);
+        assert_eq!((other.len(), there), (one.len(), end.clone()), "{sample}");
+        assert_eq!(format!("{other:?}"), format!("{one:?}"), "{sample}");
+    }
+}
+
 #[test]
 fn a_run_goes_on_from_any_checkpoint_to_the_same_bytes() {
     let scene = cloud(12, &[]);

@@ -69,11 +69,13 @@ impl Island {
         Components::joined(model.bodies.len(), joined)
     }
 
-    /// Comes to a time within its paths, by a step that ends there; what it has done since is forgotten.
+    /// Comes to a time within its paths, by a step that ends there; what it has done since is forgotten. Events up to
+    /// there stay those of the step that is cut: some of them may have been handed on.
     ///
     /// # Errors
     /// [`Stop`] if that step cannot be made.
-    pub fn come_to(&mut self, time: f64, plan: &RunPlan, since: f64) -> Result<(), Stop> {
+    pub fn come_to(&mut self, time: f64, plan: &RunPlan) -> Result<(), Stop> {
+        let known = std::mem::take(&mut self.events);
         // The last step that begins no later is cut there, the others are repeated.
         let begins = self.paths.iter().flat_map(Paths::beginnings);
         let cut = begins.filter(|begin| *begin <= time).fold(f64::NEG_INFINITY, f64::max);
@@ -90,7 +92,8 @@ impl Island {
             }
             Ok(())
         });
-        self.events.retain(|event| event.time > since);
+        self.events = known;
+        self.events.retain(|event| event.time <= time);
         come
     }
 

@@ -8,6 +8,7 @@
 mod approach;
 mod carried;
 mod detection;
+mod effort;
 mod half_turns;
 pub(crate) mod horizon;
 mod merging;
@@ -29,6 +30,7 @@ use crate::outcome::Stop;
 use crate::peaks::Peaks;
 use crate::plan::RunPlan;
 use crate::run_state::{IslandMemory, IslandState};
+pub(crate) use effort::Effort;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{Integrator, Memory, MemoryError, StepReport};
@@ -82,8 +84,8 @@ pub(crate) struct Island {
     pub last_step: Option<(f64, f64)>,
     /// The last step.
     pub report: Option<StepReport>,
-    /// How many steps it has made in this window.
-    pub window_steps: u64,
+    /// The steps of this window.
+    pub effort: Effort,
     /// Why it came no further.
     pub stop: Option<Stop>,
     /// Those of its bodies since the time of the run, where bodies may meet others.
@@ -140,7 +142,7 @@ impl Island {
             peaks_before: Peaks::default(),
             last_step: None,
             report: None,
-            window_steps: 0,
+            effort: Effort::default(),
             stop: None,
             paths,
             restart_point: None,
@@ -236,6 +238,7 @@ impl Island {
         self.integrator = integrator;
         self.state.clone_from(&memory.state);
         self.last_step = None;
+        self.effort.forget();
         if let Some(restart_point) = &mut self.restart_point {
             restart_point.drop_at(&self.state, &self.integrator);
         }
@@ -268,7 +271,6 @@ impl Island {
                     return;
                 }
             }
-            self.window_steps += 1;
         }
     }
 
@@ -295,6 +297,7 @@ impl Island {
             return Err(Stop::by_interruption(time));
         }
         let report = made.map_err(|failure| Stop::by_failure(self.system.model(), &failure))?;
+        self.effort.count(self.members.len());
         self.read_step_end();
         self.state.largest_projection = self.state.largest_projection.max(report.projection);
         self.state.note_dissipation(before, self.dissipation());

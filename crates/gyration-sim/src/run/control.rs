@@ -39,7 +39,7 @@ impl Simulation {
         self.plan.end = time;
         let beyond = |island: &&mut Island| island.time() > time && island.restart_point.is_some();
         for island in self.partition.islands.iter_mut().filter(beyond) {
-            let landed = island.come_to(time, &self.plan, time);
+            let landed = island.come_to(time, &self.plan);
             debug_assert!(landed.is_ok(), "a step that was made can be cut");
         }
         self.commit(self.least_time());

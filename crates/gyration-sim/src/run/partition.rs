@@ -7,7 +7,7 @@
 //! is known is later. Meetings wait in a queue of times; only the steps that an island has made since are looked at
 //! again.
 
-use crate::island::{Island, PathBound, Paths, Setting};
+use crate::island::{Effort, Island, PathBound, Paths, Setting};
 use crate::outcome::Stop;
 use crate::run::islands::Islands;
 use crate::run::meeting::{Approaching, Meeting};
@@ -44,6 +44,8 @@ pub(crate) struct Partition {
     revisions: u64,
     /// The time of the last change [s].
     changed: f64,
+    /// The steps in this window of islands that are no more.
+    ended: Effort,
 }
 
 /// A change of the partition.
@@ -58,8 +60,6 @@ enum Change {
 /// What a change needs of the run beside the islands.
 pub(crate) struct Changing<'a> {
     pub setting: Setting<'a>,
-    /// The time of the run [s].
-    pub since: f64,
     /// What islands have done that are no more.
     pub settled: &'a mut Settled,
 }
@@ -104,6 +104,7 @@ impl Partition {
             made: Vec::new(),
             revisions: 0,
             changed: f64::NEG_INFINITY,
+            ended: Effort::default(),
         };
         this.put(islands);
         this.made = Vec::new();
@@ -113,6 +114,13 @@ impl Partition {
     /// The first body of the island of a body, by which it is known, and the place of the body there.
     pub fn island_of(&self, body: usize) -> (usize, usize) {
         self.island_of[body]
+    }
+
+    /// The steps of all bodies since this was asked for last.
+    pub fn take_effort(&mut self) -> Effort {
+        let mut all = std::mem::take(&mut self.ended);
+        self.islands.iter_mut().for_each(|island| all += std::mem::take(&mut island.effort));
+        all
     }
 
     /// Whether the islands stay what they are.
@@ -288,9 +296,9 @@ impl Partition {
     /// Makes one island of two at a time.
     fn merge(&mut self, [one, other]: [usize; 2], time: f64, changing: Changing) -> Result<(), Stop> {
         assert!(one < other, "islands ascend");
-        let Changing { setting, since, settled } = changing;
+        let Changing { setting, settled } = changing;
         for island in [one, other] {
-            self.islands[island].come_to(time, setting.plan, since)?;
+            self.islands[island].come_to(time, setting.plan)?;
         }
         let (first, second) = (self.islands.take(one), self.islands.take(other));
         let mut members = [first.members(), second.members()].concat();
@@ -301,6 +309,8 @@ impl Partition {
         match merged {
             Ok(mut merged) => {
                 merged.take_events([&*first, &*second]);
+                self.ended += first.effort;
+                self.ended += second.effort;
                 settle_works(settled, setting, [&*first, &*second]);
                 self.put([Box::new(merged)]);
             }
@@ -314,7 +324,7 @@ impl Partition {
 
     /// Lets an island fall apart where it stands.
     fn split(&mut self, first: usize, changing: Changing) -> Result<(), Stop> {
-        let Changing { setting, settled, .. } = changing;
+        let Changing { setting, settled } = changing;
         let island = &self.islands[first];
         let whole = island.kinetic_energy(0..island.members().len());
         let components = island.parts();
@@ -328,6 +338,7 @@ impl Partition {
         });
         let mut pieces = pieces.map(|piece| piece.map(Box::new)).collect::<Result<Vec<_>, Stop>>()?;
         let island = self.islands.take(first);
+        self.ended += island.effort;
         // Its events are handed on by any of the pieces.
         pieces[0].take_events([&*island]);
         settle_works(settled, setting, [&*island]);

@@ -2,16 +2,23 @@
 
 use super::partition::Changing;
 use super::{Simulation, is_asked};
-use crate::island::{Island, Setting};
+use crate::island::{Effort, Island, Setting};
 use crate::outcome::{Reason, Stop};
 use crate::ports::{Monitor, Progress, RunError, Sink};
 use gyration::Quantity;
 use gyration_threads::{Interruption, in_order};
 use std::num::NonZeroUsize;
 
-/// Steps of all islands together in a window: fewer, and windows become wider; more, and they become narrower. So a
+/// Steps of all bodies together in a window: fewer, and windows become wider; more, and they become narrower. So a
 /// window takes a part of a second, and to share it out among threads next to nothing.
 const STEPS: [u64; 2] = [1 << 12, 1 << 14];
+/// The parts of them that are made anew since islands change: less, and windows may become wider; more, and they become
+/// narrower.
+const AGAIN: [f64; 2] = [0.02, 0.1];
+/// Over so many windows this is judged.
+const JUDGED: u64 = 8;
+/// A window becomes narrower if it holds more steps than this part of the islands: each of them is looked at.
+const LOOKED_AT: u64 = 16;
 /// Steps of all islands together at most before the monitor is asked again.
 const MOST_STEPS: u64 = 1 << 14;
 /// A window that takes more than so many times that ends before its time.
@@ -24,28 +31,40 @@ const PIECES: usize = 16;
 /// What the width of a window lacks, as a difference of times that are far longer.
 const ROUNDING: f64 = 1e-6;
 
-/// How wide windows are: so that they hold as many steps as [`STEPS`] says.
+/// How wide windows are: so that they hold as many steps as [`STEPS`] says, of which few are made twice. Whatever their
+/// width, the steps that stand are the same.
 pub(super) struct WindowWidth {
     /// At most [s].
     most: f64,
     /// That of the last one [s].
     last: f64,
+    /// The steps of windows that are judged together, and how many of these there are.
+    judged: (Effort, u64),
 }
 
 impl WindowWidth {
     pub fn new(shortest: f64) -> Self {
-        Self { most: FIRST_WINDOW * shortest, last: 0.0 }
+        Self { most: FIRST_WINDOW * shortest, last: 0.0, judged: (Effort::default(), 0) }
     }
 
-    /// The width of the next window [s], given the steps of the last one. One that had to end early for something else
-    /// does not say that windows should be wider.
-    fn next(&mut self, steps: u64) -> f64 {
-        // The last width is a difference of times.
-        if steps < STEPS[0] && self.last >= (1.0 - ROUNDING) * self.most {
-            self.most *= 2.0;
-        } else if steps > STEPS[1] {
+    /// The width of the next window [s], given the steps of the last one and how many islands there are.
+    fn next(&mut self, effort: Effort, islands: usize) -> f64 {
+        let (all, windows) = &mut self.judged;
+        *all += effort;
+        *windows += 1;
+        let again = (all.made - all.kept) as f64 / all.made.max(1) as f64;
+        let is_costly = again > AGAIN[1] && all.made * LOOKED_AT > islands as u64 * *windows;
+        // One that had to end early for something else does not say that windows should be wider. The last width is a
+        // difference of times.
+        let is_short = effort.made < STEPS[0] && self.last >= (1.0 - ROUNDING) * self.most;
+        if effort.made > STEPS[1] || is_costly {
             self.most = 0.5 * self.most.min(self.last);
+        } else if is_short && (effort.made == 0 || (*windows >= JUDGED && again < AGAIN[0])) {
+            self.most *= 2.0;
+        } else if *windows < 2 * JUDGED {
+            return self.most;
         }
+        self.judged = (Effort::default(), 0);
         self.most
     }
 }
@@ -129,8 +148,8 @@ impl Simulation {
         if self.partition.islands.len() == 1 || at_events {
             return time.next_up();
         }
-        let steps = self.partition.islands.iter_mut().map(|island| std::mem::take(&mut island.window_steps));
-        let width = self.width.next(steps.sum());
+        let effort = self.partition.take_effort();
+        let width = self.width.next(effort, self.partition.islands.len());
         let mut until = (time + width).min(self.plan.end).min(self.sample_time(self.state.next_sample));
         if let Some(criterion) = self.plan.stop_at_rest {
             until = until.min(self.rest().unwrap_or(time + criterion.hold));
@@ -173,8 +192,7 @@ impl Simulation {
         let known = until.min(self.partition.known_time());
         let Self { model, start, speeds, plan, partition, state, shared, .. } = self;
         let setting = Setting { model, start, speeds, plan };
-        let since = state.time;
-        let mut is_changed = partition.change(until, Changing { setting, since, settled: &mut state.settled })?;
+        let mut is_changed = partition.change(until, Changing { setting, settled: &mut state.settled })?;
         let any = is_changed;
         while is_changed && none_stopped {
             let made = partition.made().to_vec();
@@ -187,7 +205,7 @@ impl Simulation {
                 let has_come = island.time() >= known || island.state.is_parting;
                 has_come && island.stop.is_none() && !island.system.was_interrupted()
             };
-            let changing = Changing { setting, since, settled: &mut state.settled };
+            let changing = Changing { setting, settled: &mut state.settled };
             is_changed = made.iter().all(is_there) && partition.change_again(known, until, changing)?;
         }
         Ok(any)
@@ -282,21 +300,36 @@ impl Simulation {
 mod tests {
     use super::*;
 
+    /// The steps of the last window and the width of the next, where so many steps are made a second of which a part is
+    /// made anew for each second of the window, of 1,600 islands; a sample ends each window after 0.1 s.
+    fn settled(rate: f64, again: f64, width: &mut WindowWidth) -> (u64, f64) {
+        let mut effort = Effort::default();
+        for _ in 0..5000 {
+            width.last = width.next(effort, 1600).min(0.1);
+            let kept = rate * width.last;
+            effort = Effort { made: (kept * (1.0 + again * width.last)) as u64, kept: kept as u64 };
+        }
+        (effort.made, width.most)
+    }
+
     #[test]
     fn windows_hold_so_many_steps_whatever_else_ends_them() {
-        // So many steps a second; a sample ends each window after 0.1 s.
-        let settled = |rate: f64, width: &mut WindowWidth| {
-            let mut steps = 0;
-            for _ in 0..5000 {
-                width.last = width.next(steps).min(0.1);
-                steps = (rate * width.last) as u64;
-            }
-            (steps, width.most)
-        };
         let mut width = WindowWidth::new(0.1);
-        assert!((STEPS[0]..=STEPS[1]).contains(&settled(1e6, &mut width).0));
+        assert!((STEPS[0]..=STEPS[1]).contains(&settled(1e6, 0.0, &mut width).0));
         // Quiet for long: the sample alone ends windows, which do not grow without bound meanwhile.
-        assert!(settled(10.0, &mut width).1 <= 0.2);
-        assert!((STEPS[0]..=STEPS[1]).contains(&settled(1e7, &mut width).0));
+        assert!(settled(10.0, 0.0, &mut width).1 <= 0.2);
+        assert!((STEPS[0]..=STEPS[1]).contains(&settled(1e7, 0.0, &mut width).0));
+    }
+
+    #[test]
+    fn windows_are_so_narrow_that_little_is_done_anew() {
+        let mut width = WindowWidth::new(0.1);
+        let (steps, wide) = settled(1e6, 100.0, &mut width);
+        assert!(wide * 100.0 < 0.12 && steps >= 30, "{steps} in {wide} s");
+        // Not so narrow that there is more to look at than to do.
+        let (steps, wide) = settled(1e5, 1e4, &mut width);
+        assert!(wide * 1e4 > 0.12 && (50..=200).contains(&steps), "{steps} in {wide} s");
+        let (_, wide) = settled(1e4, 0.0, &mut width);
+        assert!(wide >= 0.1, "{wide} s");
     }
 }
