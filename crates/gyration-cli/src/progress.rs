@@ -87,23 +87,25 @@ fn interruption() -> Result<Arc<AtomicBool>, CliError> {
     Ok(interrupted)
 }
 
-/// Watches a run: its bar says what limits the step.
+/// Watches a run: its bar says what limits the step, and how many bodies share it.
 pub struct RunProgress {
     terminal: Terminal,
     /// The line before the first step, which may take long.
     first: Option<Waiting>,
     /// Wall and simulated time [s] at the beginning of the present average.
     since: (Instant, f64),
+    /// Bodies of the run.
+    bodies: usize,
 }
 
 impl RunProgress {
-    /// Begins to watch.
+    /// Begins to watch a run of so many bodies.
     ///
     /// # Errors
     /// [`CliError::Signal`].
-    pub fn new(with_bar: bool) -> Result<Self, CliError> {
+    pub fn new(with_bar: bool, bodies: usize) -> Result<Self, CliError> {
         let terminal = Terminal::new(with_bar)?;
-        Ok(Self { terminal, first: None, since: (Instant::now(), f64::NAN) })
+        Ok(Self { terminal, first: None, since: (Instant::now(), f64::NAN), bodies })
     }
 
     /// Says on the terminal that the first step is waited for, until it comes.
@@ -125,7 +127,7 @@ impl RunProgress {
 
 impl Monitor for RunProgress {
     fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
-        let Self { terminal, first, since } = self;
+        let Self { terminal, first, since, bodies } = self;
         *first = None;
         if since.1.is_nan() {
             since.1 = progress.step.start;
@@ -140,14 +142,58 @@ impl Monitor for RunProgress {
             let limit = limit_in_words(progress.model, &progress.step.limit);
             bar.set_prefix(format!("t = {time:.4} of {end} s"));
             bar.set_message(format!(
-                "{} s/s, {} left, step {:.1e} s limited by {limit}",
+                "{} s/s, {} left, step {:.1e} s{} limited by {limit}",
                 significant(rate, 3),
                 duration((end - time) / rate),
                 progress.step.end - progress.step.start,
+                sharing(progress.model.bodies.len(), *bodies),
             ));
             bar.set_position((TICKS as f64 * time / end) as u64);
         });
         // Ctrl-C is an interruption in force.
         None
+    }
+}
+
+/// How many bodies of so many share the step that holds the run up; nothing where they are all, or one alone.
+fn sharing(island: usize, bodies: usize) -> String {
+    if island < 2 || island == bodies { String::new() } else { format!(" of {island} of {bodies} bodies") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gyration_scene::{Scene, gallery_scene};
+    use gyration_sim::{MemorySink, RunPlan, Simulation};
+    use std::path::Path;
+
+    /// Writes down how many bodies share the step that holds a run up.
+    #[derive(Default)]
+    struct Shares(Vec<usize>);
+
+    impl Monitor for Shares {
+        fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
+            self.0.push(progress.model.bodies.len());
+            None
+        }
+    }
+
+    /// The first domino falls alone, then on the next: the step that holds the run up is of one, then of two and more.
+    #[test]
+    fn the_line_tells_how_many_bodies_share_the_step() {
+        let text = gallery_scene("dominoes").unwrap();
+        let scene = Scene::parse("dominoes.toml", text, Path::new(""), &["time.end=0.3".to_owned()]).unwrap();
+        let built = scene.built();
+        let mut run = Simulation::new(&built.model, &built.state, RunPlan::from(built)).unwrap();
+        let mut shares = Shares::default();
+        run.begin(&mut MemorySink::default()).unwrap();
+        run.run(&mut MemorySink::default(), &mut shares).unwrap();
+        let bodies = built.model.bodies.len();
+        assert!(shares.0.contains(&1) && shares.0.iter().any(|island| *island > 1), "{:?}", shares.0);
+        assert!(shares.0.iter().all(|island| *island <= bodies));
+        assert_eq!(
+            [1, 2, bodies].map(|island| sharing(island, bodies)),
+            ["", &format!(" of 2 of {bodies} bodies"), ""]
+        );
     }
 }

@@ -22,6 +22,7 @@ pub mod input;
 mod key;
 mod overriding;
 mod places;
+mod pressing;
 pub mod quantity;
 mod read;
 mod scene;
@@ -40,6 +41,7 @@ pub use error::{ErrorKind, LoadError, NotToml, ReadError, SceneError, SceneError
 pub use file::{Method, Recorded};
 pub use gallery::{NotInGallery, gallery, gallery_scene, gallery_title};
 pub use overriding::{Override, OverrideValue};
+pub use pressing::Pressing;
 pub use scene::Scene;
 pub use schema::{schema, schema_of, written_schema};
 pub use suggest::fix as suggestion;

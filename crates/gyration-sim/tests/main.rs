@@ -36,6 +36,7 @@ mod runs;
 mod sensitivities;
 mod settled;
 mod short_range;
+mod softness;
 mod stepping;
 mod surfaces;
 mod touching;

@@ -53,6 +53,9 @@ pub fn execute(arguments: &Check) -> Result<u8, CliError> {
                 value["meetings_left_out"] = json!(left_out);
             }
         }
+        if !survey.softness.is_empty() {
+            value["softness"] = json!(survey.softness);
+        }
         for (name, told) in [("notes", &survey.remarks.notes), ("warnings", &survey.remarks.warnings)] {
             if !told.is_empty() {
                 value[name] = json!(told);

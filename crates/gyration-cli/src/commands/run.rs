@@ -31,7 +31,7 @@ pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
     }
     let remarks = job.remarks();
     tell_remarks(arguments, &remarks);
-    let mut watch = RunProgress::new(!arguments.quiet)?;
+    let mut watch = RunProgress::new(!arguments.quiet, job.model.bodies.len())?;
     let ended = watch.interruption().within(|| {
         if arguments.resume {
             watch.await_first_step();

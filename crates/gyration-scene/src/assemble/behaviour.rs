@@ -22,13 +22,9 @@ use super::partners::{Names, Partners};
 use crate::check::{PartialScene, Placed, Reporter};
 use crate::file::{Behaviour, Contact, Damping, EXPONENT, Friction, Layer, Repulsion};
 use crate::key::Key;
+use crate::pressing::{GAPS, Pressing, root_of_falling};
 use crate::quantity::{Length, NonNegative, Positive, Pressure, SurfaceDamping, si};
 use crate::units::shown;
-use gyration::body::Solid;
-use gyration::contact::{
-    AreaMeasure, ContactLaw, ContactLoads, ContactScratch, LawSet, Meeting, RelativeMotion, Repulsion as Acting,
-};
-use gyration::tensor::{Mat3, Vec3};
 use std::collections::HashSet;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -38,9 +34,6 @@ const EXPONENTS: [f64; 2] = [2.0, 200.0];
 
 /// The largest |ln d₀^ν|: with a strength it stays in the range of numbers.
 const LARGEST_POWER: f64 = 660.0;
-
-/// Gaps among which that of a layer is sought, over the size of the body.
-const GAPS: [f64; 2] = [1e-12, 1e2];
 
 /// Writes the laws of all contacts that say what they do; leaves out those of which that cannot be, which is noted.
 pub(super) fn resolve(partial: &mut PartialScene, assembled: &[Option<AssembledBody>], reporter: &mut Reporter<'_>) {
@@ -62,15 +55,6 @@ pub(super) fn resolve(partial: &mut PartialScene, assembled: &[Option<AssembledB
     partial.contacts = partial.contacts.iter().filter_map(resolved).collect();
 }
 
-/// A body that lies on its lowest side.
-struct Pressing<'a> {
-    solid: &'a Solid,
-    /// m g \[N\].
-    weight: f64,
-    /// Pᵀn of the plane below.
-    direction: Vec3,
-}
-
 /// The different bodies with a weight that a contact is of; none if something is wrong with one of them.
 fn pressing<'a>(
     partners: &Partners,
@@ -86,27 +70,11 @@ fn pressing<'a>(
     let mut pressing = Vec::new();
     for body in bodies {
         let solid = &assembled[body].as_ref()?.body.solid;
-        let weight = solid.mass.mass * gravity;
-        if weight > 0.0 && solid.surface.is_some() && seen.insert(Arc::as_ptr(solid)) {
-            let direction = -solid.shape.lowest_side(&solid.mass.center);
-            pressing.push(Pressing { solid, weight, direction });
+        if seen.insert(Arc::as_ptr(solid)) {
+            pressing.extend(Pressing::new(solid, gravity));
         }
     }
     Some(pressing)
-}
-
-impl Pressing<'_> {
-    /// α \[Pa\] with which it lies at this gap \[m\]; not a number where it has no such place.
-    fn strength(&self, gap: f64, exponent: f64) -> f64 {
-        let Some(surface) = &self.solid.surface else { return f64::NAN };
-        let law = Acting { alpha: 1.0, exponent, reference_gap: gap };
-        let laws = LawSet::new(AreaMeasure::DeformedArea, vec![ContactLaw::Repulsion(law)]);
-        let motion = RelativeMotion { normal: self.direction, velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() };
-        let field = surface.field_at(gap, self.direction);
-        let meeting = Meeting { surface, field, motion, deformation: None };
-        let loads = ContactLoads::integrate(&laws, &meeting, &mut ContactScratch::default());
-        loads.map_or(f64::NAN, |loads| self.weight / loads.total().force.dot(&self.direction))
-    }
 }
 
 /// α \[Pa\] with which none of these comes nearer.
@@ -325,25 +293,6 @@ fn loss(x: f64) -> f64 {
     }
     // Terms (−x)^k/(k + 2): the sixteenth is below rounding.
     (0..16).rev().fold(0.0, |sum, k| 1.0 / f64::from(k + 2) - x * sum)
-}
-
-/// Where a falling function changes its sign, to the last digit; none where it does not.
-fn root_of_falling([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> Option<f64> {
-    let ends = [function(low), function(high)];
-    if ends[0].is_nan() || ends[0] < 0.0 || ends[1] > 0.0 {
-        return None;
-    }
-    loop {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            return Some(middle);
-        }
-        if function(middle) > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
 }
 
 #[cfg(test)]

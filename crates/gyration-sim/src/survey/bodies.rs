@@ -7,6 +7,7 @@ use super::mass::MassSurvey;
 use super::meetings::MeetingSurvey;
 use super::modes::{RestState, SystemRestState};
 use super::rest::{Approach, RestGap};
+use super::softness::SoftnessSurvey;
 use super::springs::SpringSurvey;
 use super::supports::SupportSurvey;
 use crate::resistance::completed;
@@ -41,6 +42,9 @@ pub struct Survey {
     pub springs: Vec<SpringSurvey>,
     /// The bodies that meet.
     pub meetings: Vec<MeetingSurvey>,
+    /// How soft the laws of a crowd are, where softer ones cost less.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub softness: Vec<SoftnessSurvey>,
     /// How many pairs of bodies meet, and how many of these feel each other however far they are.
     #[serde(skip)]
     pub pairs: [usize; 2],
@@ -199,14 +203,16 @@ impl Survey {
         let deforms = scene.unknown_forms().iter().any(|form| form.resolution.is_some());
         let scene = if deforms || scene.built().waves.is_some() { completed(scene)? } else { Cow::Borrowed(scene) };
         let (model, start) = (&scene.built().model, &scene.built().state);
-        let bodies = (0..model.bodies.len()).map(|index| survey_body(model, start, index)).collect();
+        let bodies: Vec<_> = (0..model.bodies.len()).map(|index| survey_body(model, start, index)).collect();
+        let meetings = MeetingSurvey::all(model, start);
         Ok(Self {
+            softness: SoftnessSurvey::all(&scene, &bodies, &meetings),
             bodies,
             supports: SupportSurvey::all(model),
             joints: JointSurvey::all(model, start),
             linkages: LinkageSurvey::all(model, start),
             springs: SpringSurvey::all(model, start),
-            meetings: MeetingSurvey::all(model, start),
+            meetings,
             pairs: model.count_pairs(),
             remarks: Remarks::at_start(model, start, scene.built().plan.rtol),
         })

@@ -4,6 +4,7 @@ use super::bodies::{BodySurvey, Survey};
 use super::crowd::{MOST_BODIES, sorts, write_crowd};
 use super::joints::write_joints;
 use super::meetings::write_meetings;
+use super::softness::write_softness;
 use super::springs::write_springs;
 use super::supports::write_supports;
 use super::words::write_body_words;
@@ -50,6 +51,7 @@ fn in_words(scene: &Scene, survey: &Survey) -> String {
     write_joints(&mut text, &survey.joints, &survey.linkages);
     write_springs(&mut text, &survey.springs);
     write_meetings(&mut text, &survey.meetings, survey.pairs[0], survey.pairs[1]);
+    write_softness(&mut text, &survey.softness);
     for note in &survey.remarks.notes {
         let _ = writeln!(text, "note       {note}");
     }
