@@ -5,7 +5,7 @@
 // The camera is place and target [m], from the followed centre where one is followed. What is as it begins is left out,
 // and parts of others are kept.
 
-import type { Coloring } from "./view/coloring";
+import { COLORINGS, type Coloring } from "./view/coloring";
 import type { Sight } from "./view/framing";
 import { LAYERS, type Layer } from "./view/scene";
 
@@ -25,7 +25,6 @@ export interface Look {
 /** What is this much shorter than the camera is away cannot be seen. */
 const CLOSE = 1e-6;
 
-const COLORINGS: Coloring[] = ["body", "stretch", "stress"];
 const OWN = ["t", "show", "color", "body", "group", "follow", "camera", "panel"];
 
 /** What an address asks for; parts that make no sense are left out. */

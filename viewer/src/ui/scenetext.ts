@@ -11,7 +11,7 @@ export function scenePanel(header: Header): HTMLElement {
   const show = (asWritten: boolean) => {
     written.setAttribute("aria-pressed", String(asWritten));
     resolved.setAttribute("aria-pressed", String(!asWritten));
-    if (asWritten) text.replaceChildren(...colored(header.scene ?? ""));
+    if (asWritten) text.replaceChildren(colored(header.scene ?? ""));
     else text.textContent = JSON.stringify(header.resolved ?? null, null, 2);
   };
   const copied = async () => {
@@ -42,9 +42,16 @@ export function scenePanel(header: Header): HTMLElement {
   );
 }
 
+/** Lines whose parts are set apart: of ten thousand bodies the text is long enough as it is. */
+const MOST_COLORED = 3000;
+
 /** TOML with comments, headings and keys set apart. */
-function colored(text: string): Node[] {
-  return text.split("\n").flatMap((line) => [...parts(line), document.createTextNode("\n")]);
+function colored(text: string): DocumentFragment {
+  const lines = text.split("\n");
+  const whole = document.createDocumentFragment();
+  for (const line of lines.slice(0, MOST_COLORED)) whole.append(...parts(line), "\n");
+  whole.append(lines.slice(MOST_COLORED).join("\n"));
+  return whole;
 }
 
 function parts(line: string): Node[] {

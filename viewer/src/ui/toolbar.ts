@@ -4,7 +4,7 @@ import { groupsOf } from "../data/described";
 import type { Recording } from "../data/recording";
 import type { Look } from "../link";
 import { counted } from "../math/format";
-import type { Coloring } from "../view/coloring";
+import { COLORINGS, type Coloring } from "../view/coloring";
 import { LAYERS, type Layer, type SceneView, type Shown } from "../view/scene";
 import { h, type Icon, iconButton, pressed } from "./dom";
 
@@ -28,11 +28,7 @@ function chosenBy(value: string): number | string | null {
   return value === "" ? null : Number(value);
 }
 
-const COLORINGS: [Coloring, string][] = [
-  ["body", "Colour by body"],
-  ["stretch", "Colour by stretch"],
-  ["stress", "Colour by stress"],
-];
+const labelOf = (coloring: Coloring) => `Colour by ${coloring}`;
 
 export class Toolbar {
   readonly element: HTMLElement;
@@ -52,7 +48,7 @@ export class Toolbar {
     private readonly chose: (body: number | null) => void,
     reset: () => void,
   ) {
-    this.options = COLORINGS.map(([value, label]) => h("option", { value }, label));
+    this.options = COLORINGS.map((value) => h("option", { value }, labelOf(value)));
     this.coloring = h(
       "select",
       { "aria-label": "colouring", onchange: () => this.color(this.coloring.value as Coloring) },
@@ -87,7 +83,8 @@ export class Toolbar {
   /** Another recording: its bodies, and the colourings that it allows. */
   load(recording: Recording, { colors, isJoined }: Pick<SceneView, "colors" | "isJoined">): void {
     const { bodies } = recording.header;
-    COLORINGS.forEach(([coloring, label], index) => {
+    COLORINGS.forEach((coloring, index) => {
+      const label = labelOf(coloring);
       const reason = colors.absent(coloring);
       this.options[index].disabled = reason !== null;
       this.options[index].textContent = reason ? `${label} – ${reason}` : label;
@@ -128,7 +125,7 @@ export class Toolbar {
 
   /** The next colouring that is to be had. */
   nextColoring(): void {
-    const free = COLORINGS.map(([coloring]) => coloring).filter((_, index) => !this.options[index].disabled);
+    const free = COLORINGS.filter((_, index) => !this.options[index].disabled);
     this.color(free[(free.indexOf(this.shown.coloring) + 1) % free.length]);
   }
 
@@ -157,7 +154,7 @@ export class Toolbar {
   /** Shows what a look tells, and all else as it begins. */
   restore({ show = BEGINNING, color = "body", body, group, follow }: Look, travels: boolean): void {
     for (const layer of LAYERS) this.shown[layer] = show.includes(layer);
-    const index = COLORINGS.findIndex(([coloring]) => coloring === color);
+    const index = COLORINGS.indexOf(color);
     this.shown.coloring = this.options[index].disabled ? "body" : color;
     const place = this.bodies.indexOf(body ?? "");
     const isGroup = group !== undefined && this.groups.has(group);

@@ -39,6 +39,8 @@ export class SceneView {
   readonly supports: SupportLayer;
   solids: SolidLayer;
   private bodies: BodyLayer;
+  /** The layer whose bodies have the colours of their names. */
+  private painted: BodyLayer | null = null;
   private readonly outlines: OutlineLayer;
   private readonly springs: SpringLayer;
   private readonly joints: JointLayer;
@@ -126,9 +128,8 @@ export class SceneView {
     const { shown, frame } = this;
     frame.take(this.recording, time, smooth);
     this.bodies.place(frame);
-    this.bodies.paint(this.colors.at(shown.coloring, frame));
     this.outlines.place(frame);
-    this.outlines.paint(this.colors.at(shown.coloring, frame));
+    this.color();
     this.springs.group.visible = shown.joints;
     this.springs.place(frame);
     this.joints.group.visible = shown.joints;
@@ -144,6 +145,16 @@ export class SceneView {
     this.ghosts.group.visible = shown.ghosts;
     this.ghosts.place();
     this.follow();
+  }
+
+  /** Colours every body; colours that are names stay as they are. */
+  private color(): void {
+    const { coloring } = this.shown;
+    if (coloring === "body" && this.painted === this.bodies) return;
+    this.painted = coloring === "body" ? this.bodies : null;
+    const colorOf = this.colors.at(coloring, this.frame);
+    this.bodies.paint(colorOf);
+    this.outlines.paint(colorOf);
   }
 
   /** Colours what takes them from the theme. */

@@ -77,6 +77,18 @@ describe("large recordings", () => {
     await close();
   });
 
+  // Ten thousand bodies that are written one by one have as many lines.
+  it("a_scene_of_a_hundred_thousand_lines_is_opened_whole", async () => {
+    const scene = join(folder, "long.toml");
+    const text = `${"# a line\n".repeat(100_000)}${crowd(1, 1)}`;
+    writeFileSync(scene, text);
+    const { page, problems, close } = await opened(reported(recorded(scene)));
+    await page.getByRole("tab", { name: "Scene" }).click();
+    expect(await page.locator("pre.code").textContent()).toBe(text);
+    expect(problems).toEqual([]);
+    await close();
+  });
+
   it("a_hundred_thousand_samples_are_scrubbed_and_plotted", async () => {
     const server = await served(recorded("bounce", "time.end=1", "time.sample=1e-5"));
     const { page, problems, close } = await opened(server.url);
