@@ -291,7 +291,7 @@ pub struct Export {
     /// File to write; - writes csv to stdout [default: STEM.csv, .npz, .pvd, .glb, .gif … in the current folder]
     #[arg(short, long, value_name = "PATH", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
-    /// Take each N-th sample, and the last (vtk)
+    /// Take each N-th sample, and the last (vtk, xyz)
     #[arg(long, value_name = "N")]
     pub every: Option<NonZeroUsize>,
     /// The time of the picture [s] (png) [default: the end]
@@ -317,6 +317,8 @@ pub enum ExportFormat {
     Npz,
     /// Surfaces with tractions and stresses, for ParaView: STEM.pvd, with the data in STEM-vtp beside it
     Vtk,
+    /// A line a body, for OVITO and whatever reads extended XYZ
+    Xyz,
     /// The motion as an animation, for viewers and modellers: STEM.glb
     Gltf,
     /// The motion as pictures in one file: STEM.gif

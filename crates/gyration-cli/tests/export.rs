@@ -52,11 +52,11 @@ fn exports_have_default_names() {
 #[test]
 fn the_name_of_a_file_tells_its_format() {
     let sandbox = recorded();
-    for name in ["a.csv", "a.npz", "a.pvd", "a.glb"] {
+    for name in ["a.csv", "a.npz", "a.pvd", "a.xyz", "a.glb"] {
         sandbox.done(&["export", "ball.gyr", "-o", name]);
         assert!(sandbox.path(name).exists(), "{name}");
     }
-    for (arguments, told) in [(&[][..], "no format is given"), (&["-o", "a.xyz"], "the name a.xyz does not tell")] {
+    for (arguments, told) in [(&[][..], "no format is given"), (&["-o", "a.abc"], "the name a.abc does not tell")] {
         let said = sandbox.refused(2, &[&["export", "ball.gyr"], arguments].concat()).stderr;
         assert!(said.contains(told) && said.contains("fix: give --format csv"), "{said}");
     }
@@ -65,7 +65,7 @@ fn the_name_of_a_file_tells_its_format() {
 #[test]
 fn what_cannot_be_exported_is_refused() {
     let sandbox = recorded();
-    let formats = ["csv", "npz", "vtk", "gltf"];
+    let formats = ["csv", "npz", "vtk", "xyz", "gltf"];
     for format in formats {
         sandbox.refused(3, &["export", "nothing.gyr", "--format", format]);
         sandbox.refused(3, &["export", "ball.toml", "--format", format]);
@@ -82,13 +82,13 @@ fn what_cannot_be_exported_is_refused() {
 #[test]
 fn failed_export_leaves_the_old_file_and_no_half_of_a_new_one() {
     let sandbox = recorded();
-    for format in ["csv", "npz", "vtk", "gltf"] {
+    for format in ["csv", "npz", "vtk", "xyz", "gltf"] {
         sandbox.done(&["export", "ball.gyr", "--format", format]);
     }
     let before = common::tree(&sandbox.path("."));
     let chunk = sandbox.path("ball.gyr/position/c.0.0.0");
     fs::write(&chunk, b"short").unwrap();
-    for format in ["csv", "npz", "vtk", "gltf"] {
+    for format in ["csv", "npz", "vtk", "xyz", "gltf"] {
         sandbox.refused(3, &["export", "ball.gyr", "--format", format]);
     }
     fs::write(&chunk, &before[chunk.strip_prefix(sandbox.path(".")).unwrap()]).unwrap();
@@ -113,6 +113,35 @@ fn surfaces_for_paraview_are_listed_with_their_times() {
     // A table that stands still has one file for all times.
     assert_eq!(list.matches("series-vtp/supports-000000.vtp").count(), 4);
     assert_eq!(fs::read_dir(sandbox.path("series-vtp")).unwrap().count(), 5);
+}
+
+#[test]
+fn particles_have_the_numbers_of_the_table() {
+    let sandbox = recorded();
+    let said = sandbox.done(&["export", "ball.gyr", "--every", "25", "-o", "ball.xyz"]);
+    assert!(said.stderr.contains("4 of 61 samples"), "{}", said.stderr);
+    let table = sandbox.done(&["export", "ball.gyr", "--format", "csv", "-o", "-"]).stdout;
+    let rows: Vec<Vec<f64>> =
+        table.lines().skip(1).map(|line| line.split(',').map(|number| number.parse().unwrap()).collect()).collect();
+    let text = fs::read_to_string(sandbox.path("ball.xyz")).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    let frames = lines.as_chunks::<3>().0;
+    assert_eq!((frames.len(), lines.len()), (4, 12));
+    for ([count, head, body], row) in frames.iter().zip([0, 25, 50, 60]) {
+        let row = &rows[row];
+        assert_eq!(*count, "1");
+        assert!(head.starts_with("Properties=species:S:1:id:I:1:pos:R:3:velo:R:3:force:R:3:"), "{head}");
+        assert!(head.ends_with(&format!(" Time={:e} pbc=\"F F F\"", row[0])), "{head}");
+        let mut words = body.split(' ');
+        assert_eq!([words.next(), words.next()], [Some("sphere"), Some("0")]);
+        let numbers: Vec<f64> = words.map(|word| word.parse().unwrap()).collect();
+        assert_eq!(numbers.len(), 30, "{body}");
+        assert!((numbers[9] / 0.523_598_775_598_298_8 - 1.0).abs() < 1e-14, "{}", numbers[9]);
+        assert_eq!(numbers[10..14], [0.05; 4]);
+        // t, p₀, P, ṗ₀, Ṗ, gap, force.
+        assert_eq!((&numbers[..3], &numbers[3..6], &numbers[6..9]), (&row[1..4], &row[13..16], &row[26..29]));
+        assert_eq!(numbers[numbers.len() - 9..], row[4..13]);
+    }
 }
 
 #[test]
@@ -150,7 +179,7 @@ fn recordings_of_earlier_and_later_versions_are_told() {
         assert!(said.stderr.contains("format 2"), "{}", said.stderr);
     }
     fs::write(&metadata, &text[..text.len() / 2]).unwrap();
-    for format in ["csv", "npz", "vtk", "gltf"] {
+    for format in ["csv", "npz", "vtk", "xyz", "gltf"] {
         sandbox.refused(3, &["export", "ball.gyr", "--format", format]);
     }
     fs::write(&metadata, text).unwrap();

@@ -6,6 +6,7 @@
 
 mod cells;
 mod error;
+mod particles;
 mod rebuild;
 mod snapshot;
 mod summary;
@@ -14,6 +15,7 @@ mod window;
 
 pub use cells::SurfaceCells;
 pub use error::ReplayError;
+pub use particles::particles_xyz;
 pub use rebuild::scene;
 pub use snapshot::{BodySnapshot, Snapshot};
 

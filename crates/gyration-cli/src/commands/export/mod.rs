@@ -11,6 +11,7 @@ use clap::ValueEnum as _;
 use gyration_plot::TimeSpan;
 use gyration_record::{RecordError, Recording, cannot_write, export, replace_file};
 use gyration_sim::pairs_csv;
+use gyration_sim::replay::particles_xyz;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -19,9 +20,9 @@ use std::path::{Path, PathBuf};
 pub fn execute(arguments: &Export) -> Result<u8, CliError> {
     let Export { recording: source, every, pairs, at, output, .. } = arguments;
     let format = arguments.format.map_or_else(|| by_ending(output.as_deref()), Ok)?;
-    if every.is_some() && format != ExportFormat::Vtk {
+    if every.is_some() && !matches!(format, ExportFormat::Vtk | ExportFormat::Xyz) {
         return Err(CliError::arguments(
-            "--every is for vtk only",
+            "--every is for vtk and xyz",
             "leave it out; films and gltf are thinned to what is seen",
         ));
     }
@@ -67,9 +68,30 @@ pub fn execute(arguments: &Export) -> Result<u8, CliError> {
         ExportFormat::Mp4 => film::mp4(&recording, arguments.span(), &path)?,
         ExportFormat::Png => film::png(&recording, *at, &path)?,
         ExportFormat::Vtk => surfaces::write(&recording, &path, every.map_or(1, usize::from))?,
+        ExportFormat::Xyz => particles(&recording, every.map_or(1, usize::from), &path)?,
     };
     output::say(&format!("wrote {} ({what})", path.display()));
     Ok(code::DONE)
+}
+
+/// Writes each `every`-th sample and the last as particles; tells how many.
+fn particles(recording: &Recording, every: usize, path: &Path) -> Result<String, CliError> {
+    let (mut samples, mut failed) = (0, None);
+    let replaced = replace_file(path, |partial| {
+        samples = written(partial, |out| {
+            particles_xyz(recording, every, out).map_err(|error| {
+                let reason = error.to_string();
+                failed = Some(error);
+                RecordError::Corrupt { path: recording.path().to_path_buf(), reason }
+            })
+        })?;
+        Ok(())
+    });
+    match (replaced, failed) {
+        (_, Some(error)) => Err(surfaces::explain(recording, error)),
+        (Err(error), None) => Err(error.into()),
+        (Ok(()), None) => Ok(format!("{samples} of {} samples", recording.rows())),
+    }
 }
 
 /// The format that the name of a file asks for.
@@ -84,7 +106,8 @@ fn by_ending(output: Option<&Path>) -> Result<ExportFormat, CliError> {
         };
         CliError::arguments(
             problem,
-            "give --format csv, npz, vtk, gltf, gif, mp4 or png, or -o with .csv, .npz, .pvd, .glb, .gif, .mp4 or .png",
+            "give --format csv, npz, vtk, xyz, gltf, gif, mp4 or png, or -o with .csv, .npz, .pvd, .xyz, .glb, .gif, .mp4 \
+             or .png",
         )
     })
 }
@@ -94,6 +117,7 @@ fn ending(format: ExportFormat) -> &'static str {
         ExportFormat::Csv => "csv",
         ExportFormat::Npz => "npz",
         ExportFormat::Vtk => "pvd",
+        ExportFormat::Xyz => "xyz",
         ExportFormat::Gltf => "glb",
         ExportFormat::Gif => "gif",
         ExportFormat::Mp4 => "mp4",

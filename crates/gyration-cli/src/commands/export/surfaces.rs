@@ -68,7 +68,7 @@ fn tell_size(first: &Path, samples: usize) {
 }
 
 /// What keeps a recording from being replayed, and what to do about it.
-fn explain(recording: &Recording, error: ReplayError) -> CliError {
+pub fn explain(recording: &Recording, error: ReplayError) -> CliError {
     match error {
         ReplayError::Record(error) => error.into(),
         ReplayError::Scene { .. } | ReplayError::OtherBody { .. } => {
