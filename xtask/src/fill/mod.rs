@@ -60,8 +60,11 @@ fn files(folders: &[&str]) -> Result<Vec<PathBuf>, String> {
     Ok(names.map(|name| root().join(name)).filter(|file| file.exists()).collect())
 }
 
-/// A file as it is, and as it should be.
+/// A file as it is, and as it should be: of Rust, or a page.
 fn read(file: &Path) -> Result<(String, String), String> {
+    if !file.extension().is_some_and(|end| end == "rs" || end == "md") {
+        return Err(format!("{}: neither .rs nor .md, whose lines would be joined", file.display()));
+    }
     let source = std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
     let filled = if file.extension().is_some_and(|end| end == "rs") {
         rust::filled(&source)
