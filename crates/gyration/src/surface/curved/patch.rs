@@ -95,9 +95,13 @@ impl Patch {
 
     /// The point X of the patch that is farthest along `direction`.
     pub fn support(&self, direction: &Vec3) -> Vec3 {
+        if let Primitive::Sphere(sphere) = &self.primitive {
+            // A sphere has no attitude.
+            return self.offset + sphere.support(direction);
+        }
         let own = self.rotation.tr_mul(direction);
         let point = match &self.primitive {
-            Primitive::Sphere(p) => p.support(&own),
+            Primitive::Sphere(_) => unreachable!("a sphere has been looked at"),
             Primitive::Hemisphere(p) => p.support(&own),
             Primitive::Ellipsoid(p) => p.support(&own),
             Primitive::CylinderWall(p) => p.support(&own),
