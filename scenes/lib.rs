@@ -72,4 +72,8 @@ pub static SCENES: &[(&str, &str)] = &[
     ("wave-gap", include_str!("wave-gap.toml")),
     ("active-chain", include_str!("active-chain.toml")),
     ("gyroscopes", include_str!("gyroscopes.toml")),
+    ("gas", include_str!("gas.toml")),
+    ("pile", include_str!("pile.toml")),
+    ("hopper", include_str!("hopper.toml")),
+    ("cells", include_str!("cells.toml")),
 ];

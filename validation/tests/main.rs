@@ -44,6 +44,7 @@ mod gallery_adhere;
 mod gallery_basset;
 mod gallery_bounce;
 mod gallery_contract;
+mod gallery_crowds;
 mod gallery_dice;
 mod gallery_double_well;
 mod gallery_elastic;

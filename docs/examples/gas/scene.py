@@ -1,6 +1,7 @@
 """Writes gas.toml: N balls (1,000 if not said) of radius 1 m that fly about in a box at 1 m/s, a tenth of its volume.
 
-Two balls that meet head-on at 1 m/s turn back at a gap of 2 mm; nothing is lost.
+Two balls that meet head-on at 1 m/s turn back at a gap of 2 mm; nothing is lost, unless a second number c [s/m] says
+how much: slow ones return 1 - (2/3) c v of their speed v.
 """
 
 import math
@@ -8,6 +9,7 @@ import random
 import sys
 
 count = int(sys.argv[1]) if len(sys.argv) > 1 else 1_000
+lossy = float(sys.argv[2]) if len(sys.argv) > 2 else 0.0
 chance = random.Random(1)
 
 DENSITY, FILLED, GAP, NU = 1.0, 0.1, 2e-3, 6
@@ -16,6 +18,7 @@ side = (count * 4 / 3 * math.pi / FILLED) ** (1 / 3)
 # U = alpha 2 pi R* d0^2/((nu - 1)(nu - 2)) at d0, R* half a radius, is the energy of the impact, half the reduced mass.
 alpha = 0.25 * mass * (NU - 1) * (NU - 2) / (math.pi * GAP**2)
 LAW = f"repulsion = {{ alpha = {alpha}, nu = {NU}, d0 = {GAP} }}"
+LOSS = f"damping = {{ beta = {lossy * alpha}, nu = {NU}, d0 = {GAP} }}" if lossy else ""
 
 HEAD = f"""title = "{count} balls in a box"
 world = {{ gravity = [0, 0, 0] }}
@@ -25,6 +28,7 @@ solver = {{ rtol = 1e-7, atol = 1e-10 }}
 between = ["balls", "balls"]
 reach = {25 * GAP}
 {LAW}
+{LOSS}
 """
 
 WALL = """
