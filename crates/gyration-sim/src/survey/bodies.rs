@@ -206,7 +206,7 @@ impl Survey {
         let bodies: Vec<_> = (0..model.bodies.len()).map(|index| survey_body(model, start, index)).collect();
         let meetings = MeetingSurvey::all(model, start);
         Ok(Self {
-            softness: SoftnessSurvey::all(&scene, &bodies, &meetings),
+            softness: SoftnessSurvey::all(&scene, nearest(&bodies, &meetings)),
             bodies,
             supports: SupportSurvey::all(model),
             joints: JointSurvey::all(model, start),
@@ -247,4 +247,11 @@ fn survey_body(model: &Model, start: &State, index: usize) -> BodySurvey {
         mass: MassSurvey::of(&body.solid.mass),
         supports: (0..model.supports.len()).filter_map(pair).collect(),
     }
+}
+
+/// The least gap at the start [m].
+fn nearest(bodies: &[BodySurvey], meetings: &[MeetingSurvey]) -> f64 {
+    let supports = bodies.iter().flat_map(|body| &body.supports).filter(|pair| !pair.laws.is_empty());
+    let gaps = supports.map(|pair| pair.initial_gap).chain(meetings.iter().filter_map(|meeting| meeting.initial_gap));
+    gaps.fold(f64::INFINITY, f64::min)
 }

@@ -10,9 +10,7 @@
 //! the same part of any speed; at ν′ = ν its factor is s, whatever p. Friction has (g′/g)^(ν′−p), which leaves it as
 //! strong at rest.
 
-use super::bodies::BodySurvey;
-use super::meetings::MeetingSurvey;
-use super::words::short;
+use crate::format::significant;
 use gyration::body::Solid;
 use gyration::contact::Repulsion as Law;
 use gyration_scene::file::{Contact, Damping, Friction, OneOrMany, Reach, Repulsion};
@@ -90,8 +88,9 @@ struct Members<'a> {
 }
 
 impl SoftnessSurvey {
-    /// Those of the crowds of a scene that lie nearer than the band; contacts with the same laws once.
-    pub fn all(scene: &Scene, bodies: &[BodySurvey], meetings: &[MeetingSurvey]) -> Vec<Self> {
+    /// Those of the crowds of a scene that lie nearer than the band, given the least gap at the start [m]; contacts
+    /// with the same laws once.
+    pub fn all(scene: &Scene, nearest: f64) -> Vec<Self> {
         let model = &scene.built().model;
         if scene.file().lattice.is_some() || model.gravity.norm() == 0.0 || model.bodies.len() <= FEW {
             return Vec::new();
@@ -111,7 +110,6 @@ impl SoftnessSurvey {
                 None => alike.push(vec![one]),
             }
         }
-        let nearest = nearest(bodies, meetings);
         alike.iter().filter_map(|contacts| Self::of(scene, contacts, nearest)).collect()
     }
 
@@ -256,13 +254,6 @@ fn may_have_length(scene: &Scene, members: &Members) -> bool {
     (members.is_between || !words.any(is_plane)) && !matches!(reach, Some(Reach::Auto(_)))
 }
 
-/// The least gap at the start [m].
-fn nearest(bodies: &[BodySurvey], meetings: &[MeetingSurvey]) -> f64 {
-    let supports = bodies.iter().flat_map(|body| &body.supports).filter(|pair| !pair.laws.is_empty());
-    let gaps = supports.map(|pair| pair.initial_gap).chain(meetings.iter().filter_map(|meeting| meeting.initial_gap));
-    gaps.fold(f64::INFINITY, f64::min)
-}
-
 fn law(repulsion: &Repulsion) -> Law {
     let Repulsion { alpha, nu, d0 } = repulsion;
     Law { alpha: alpha.value(), exponent: nu.0, reference_gap: d0.value() }
@@ -346,4 +337,9 @@ fn ranges(numbers: &[usize]) -> String {
         [] => String::new(),
     });
     words.collect::<Vec<_>>().join(", ")
+}
+
+/// Five digits.
+fn short(value: f64) -> String {
+    significant(value, 5)
 }

@@ -106,8 +106,8 @@ fn by_ending(output: Option<&Path>) -> Result<ExportFormat, CliError> {
         };
         CliError::arguments(
             problem,
-            "give --format csv, npz, vtk, xyz, gltf, gif, mp4 or png, or -o with .csv, .npz, .pvd, .xyz, .glb, .gif, .mp4 \
-             or .png",
+            "give --format csv, npz, vtk, xyz, gltf, gif, mp4 or png, or -o with .csv, .npz, .pvd, .xyz, .glb, .gif, \
+             .mp4 or .png",
         )
     })
 }
