@@ -148,13 +148,11 @@ mod tests {
     #[test]
     fn a_program_beyond_its_limit_is_killed() {
         assert_eq!(place(30).run(&["-c", "sleep 60"], 1).unwrap(), Ending::Overran);
-        let after =
-            |time, stop, what| place(30).stop_after(Duration::from_millis(time), stop, &["-c", what], 1).unwrap();
-        assert_eq!(after(200, Stop::Kill, "sleep 60"), Stopped::Killed);
-        assert_eq!(after(200, Stop::Kill, "exit 3"), Stopped::TooLate);
-        // A shell that has not come to its trap is none that was interrupted.
+        let stopped = |stop, what| place(30).stop_after(Duration::from_millis(200), stop, &["-c", what], 1).unwrap();
+        assert_eq!(stopped(Stop::Kill, "sleep 60"), Stopped::Killed);
+        assert_eq!(stopped(Stop::Kill, "exit 3"), Stopped::TooLate);
         assert_eq!(
-            after(2000, Stop::Interrupt, "trap 'exit 5' INT; while :; do sleep 0.01; done"),
+            stopped(Stop::Interrupt, "trap 'exit 5' INT; while :; do sleep 0.01; done"),
             Stopped::Interrupted(Some(5))
         );
     }

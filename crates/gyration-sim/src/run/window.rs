@@ -58,7 +58,8 @@ impl WindowWidth {
         // difference of times.
         let is_short = effort.made < STEPS[0] && self.last >= (1.0 - ROUNDING) * self.most;
         if effort.made > STEPS[1] || is_costly {
-            self.most = 0.5 * self.most.min(self.last);
+            // One that has not come farther says nothing on how wide it should have been.
+            self.most = 0.5 * if self.last > 0.0 { self.most.min(self.last) } else { self.most };
         } else if is_short && (effort.made == 0 || (*windows >= JUDGED && again < AGAIN[0])) {
             self.most *= 2.0;
         } else if *windows < 2 * JUDGED {
