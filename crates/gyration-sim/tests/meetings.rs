@@ -166,7 +166,7 @@ fn events_of_a_step_that_is_cut_stay_what_they_were() {
                  repulsion = {{ alpha = 1e6, nu = 6, d0 = 0.01 }}\ndamping = {{ beta = 1e4, nu = 3, d0 = 0.01 }}\n"
             );
         }
-        for k in 0..16 {
+        for k in 0..40 {
             text += &format!(
                 "[[body]]\nname = \"b{k}\"\ngroup = \"ball\"\nshape = {{ sphere = {{ radius = 0.05 }} }}\nmass = 1\n\
                  position = [{}, {}, {}]\n",
@@ -175,7 +175,7 @@ fn events_of_a_step_that_is_cut_stay_what_they_were() {
                 0.5 + 0.13 * f64::from(k / 4),
             );
         }
-        let scene = parsed(&text, &["time.end=0.6", sample]);
+        let scene = parsed(&text, &["time.end=0.6", "solver.rtol=1e-4", "solver.atol=1e-6", sample]);
         let built = scene.built();
         let found = run(&(built.model.clone(), built.state.clone(), RunPlan::from(built)));
         assert_eq!(found.outcome, Outcome::Completed);
@@ -183,7 +183,7 @@ fn events_of_a_step_that_is_cut_stay_what_they_were() {
     };
     let (one, end) = events("time.sample=0.1");
     assert!(one.len() > 100, "{}", one.len());
-    for sample in ["time.sample=0.01", "time.sample=0.0003"] {
+    for sample in ["time.sample=0.01", "time.sample=0.001", "time.sample=0.0003"] {
         let (other, there) = events(sample);
         assert_eq!((other.len(), there), (one.len(), end.clone()), "{sample}");
         assert_eq!(format!("{other:?}"), format!("{one:?}"), "{sample}");
