@@ -93,7 +93,7 @@ fn a_body_lies_where_the_softer_laws_say() {
     let survey = Survey::of(&alone(&softer, HEAD)).unwrap();
     let [rest] = &survey.bodies[0].supports[0].rests[..] else { panic!("one gap") };
     assert!((rest.gap / told.proposed.rest_gap - 1.0).abs() < 1e-9, "{} of {}", rest.gap, told.proposed.rest_gap);
-    // What lies in the band is left alone.
+    // What lies no nearer than 2 % of its thickness is left alone.
     assert!(Survey::of(&softer).unwrap().softness.is_empty());
 }
 

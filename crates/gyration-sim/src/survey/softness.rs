@@ -1,7 +1,7 @@
 //! How soft the laws of a crowd are, and softer ones, with which a run costs less.
 //!
 //! A body of thickness D lies at the gap g on a repulsion α (d/d₀)^−ν. Bodies that lie on one another share steps that
-//! go with the gap. Where the softest body of a contact lies nearer than [`BAND`] these laws are proposed,
+//! go with the gap. Where the softest body of a contact lies nearer than 0.02 D these laws are proposed,
 //!
 //!   g′ = 0.03 D,   d₀′ = g′,   α′ = m g/F₁(g′),   β′ d₀′^ν′ = β d₀^ν′ ρ^(ν′−1−p),   ρ = s^(1/(ν−1−p))
 //!
@@ -23,8 +23,8 @@ use std::sync::Arc;
 
 /// Of so many bodies that meet softness is no matter.
 const FEW: usize = 8;
-/// Gaps of rest over the thickness that are neither stiff nor far off.
-const BAND: [f64; 2] = [0.02, 0.05];
+/// Below such a gap of rest over the thickness laws are stiff.
+const STIFF: f64 = 0.02;
 /// The one that is proposed.
 const PROPOSED: f64 = 0.03;
 /// A reach in gaps of rest, as of `reach = "auto"`.
@@ -47,7 +47,7 @@ pub struct SoftnessSurvey {
     pub thickness: f64,
     /// g, its gap at rest on a level plane [m].
     pub rest_gap: f64,
-    /// Laws with which it lies at a gap in the band.
+    /// Laws with which it lies at 0.03 D.
     pub proposed: ProposedLaws,
     /// g′/g; steps of bodies that touch are about so many times fewer, an estimate.
     pub fewer_steps: f64,
@@ -88,8 +88,8 @@ struct Members<'a> {
 }
 
 impl SoftnessSurvey {
-    /// Those of the crowds of a scene that lie nearer than the band, given the least gap at the start [m]; contacts
-    /// with the same laws once.
+    /// Those of the crowds of a scene that lie nearer than that, given the least gap at the start [m]; contacts with
+    /// the same laws once.
     pub fn all(scene: &Scene, nearest: f64) -> Vec<Self> {
         let model = &scene.built().model;
         if scene.file().lattice.is_some() || model.gravity.norm() == 0.0 || model.bodies.len() <= FEW {
@@ -128,7 +128,7 @@ impl SoftnessSurvey {
         let softness = |(_, body, gap): &(usize, Pressing, f64)| gap / body.thickness();
         let (body, pressing, gap) = lying.max_by(|one, other| softness(one).total_cmp(&softness(other)))?;
         let thickness = pressing.thickness();
-        if gap >= BAND[0] * thickness {
+        if gap >= STIFF * thickness {
             return None;
         }
         let rest_gap = PROPOSED * thickness;
@@ -222,23 +222,17 @@ fn members(scene: &Scene) -> Vec<Members<'_>> {
         };
         (0..built.written.len()).filter(is_named).collect()
     };
-    let of = |(number, contact): (usize, &'_ _)| {
+    let of = |(number, contact)| {
         let contact: &Contact = contact;
-        let sets = match (&contact.between, &contact.body) {
+        let [one, other] = match (&contact.between, &contact.body) {
             (Some(two), _) => two.each_ref().map(|word| named(word)),
             (None, Some(body)) => [named(body), BTreeSet::new()],
             (None, None) => [(0..built.written.len()).collect(), BTreeSet::new()],
         };
-        (number, sets)
+        let is_between = !one.is_empty() && !other.is_empty();
+        Members { number, contact, bodies: &one | &other, is_between }
     };
-    let contacts = file.contact.iter().enumerate();
-    contacts
-        .map(|(number, contact)| {
-            let (number, [one, other]) = of((number, contact));
-            let is_between = !one.is_empty() && !other.is_empty();
-            Members { number, contact, bodies: &one | &other, is_between }
-        })
-        .collect()
+    file.contact.iter().enumerate().map(of).collect()
 }
 
 fn have_same_laws(one: &Contact, other: &Contact) -> bool {

@@ -95,19 +95,16 @@ impl Patch {
 
     /// The point X of the patch that is farthest along `direction`.
     pub fn support(&self, direction: &Vec3) -> Vec3 {
-        if let Primitive::Sphere(sphere) = &self.primitive {
-            // A sphere has no attitude.
-            return self.offset + sphere.support(direction);
-        }
-        let own = self.rotation.tr_mul(direction);
+        let own = || self.rotation.tr_mul(direction);
         let point = match &self.primitive {
-            Primitive::Sphere(_) => unreachable!("a sphere has been looked at"),
-            Primitive::Hemisphere(p) => p.support(&own),
-            Primitive::Ellipsoid(p) => p.support(&own),
-            Primitive::CylinderWall(p) => p.support(&own),
-            Primitive::Disk(p) => p.support(&own),
-            Primitive::ConeWall(p) => p.support(&own),
-            Primitive::Torus(p) => p.support(&own),
+            // A sphere has no attitude.
+            Primitive::Sphere(p) => return self.offset + p.support(direction),
+            Primitive::Hemisphere(p) => p.support(&own()),
+            Primitive::Ellipsoid(p) => p.support(&own()),
+            Primitive::CylinderWall(p) => p.support(&own()),
+            Primitive::Disk(p) => p.support(&own()),
+            Primitive::ConeWall(p) => p.support(&own()),
+            Primitive::Torus(p) => p.support(&own()),
         };
         self.offset + self.rotation * point
     }
