@@ -40,6 +40,7 @@ impl Silhouette {
         let depth = |point: &Vec3| view.depth(&(pose.gradient * point));
         let points = seen(&body.look.outline.points);
         let depths: Vec<f64> = body.look.outline.points.iter().map(depth).collect();
+        let inside = Inside::of(&hull);
         let mut this = Self {
             body: index,
             hull,
@@ -50,20 +51,20 @@ impl Silhouette {
             lopsided: is_lopsided(body),
         };
         for line in &body.look.outline.polylines {
-            this.add_line(line, &points, &depths, body.size);
+            this.add_line(line, &points, |a, b, middle| {
+                // Within a hundredth of the size of the outline an edge is part of it.
+                depths[a] + depths[b] < -1e-6 * body.size && inside.distance(middle) > 0.01 * body.size
+            });
         }
         this
     }
 
-    /// Divides a line into what is in front and what is behind.
-    fn add_line(&mut self, line: &[usize], points: &[Point], depths: &[f64], size: f64) {
+    /// Divides a line into what is in front and what is behind, which is told of the ends and the middle of an edge.
+    fn add_line(&mut self, line: &[usize], points: &[Point], is_behind: impl Fn(usize, usize, Point) -> bool) {
         let mut current: Option<(bool, Vec<Point>)> = None;
         for pair in line.windows(2) {
             let (Some(a), Some(b)) = (points.get(pair[0]), points.get(pair[1])) else { continue };
-            let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
-            // Within a hundredth of the size of the outline an edge is part of it.
-            let deep = depths[pair[0]] + depths[pair[1]] < -1e-6 * size;
-            let behind = deep && distance_inside(&self.hull, middle) > 0.01 * size;
+            let behind = is_behind(pair[0], pair[1], [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]);
             match &mut current {
                 Some((side, run)) if *side == behind => run.push(*b),
                 _ => {
@@ -128,11 +129,23 @@ pub fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
     hull
 }
 
-/// The distance to the nearest side of a convex outline, negative outside.
-fn distance_inside(hull: &[Point], point: Point) -> f64 {
-    let sides = hull.iter().zip(hull.iter().cycle().skip(1));
-    let distance = |(a, b): (&Point, &Point)| cross(*a, *b, point) / libm::hypot(b[0] - a[0], b[1] - a[1]);
-    sides.map(distance).fold(f64::INFINITY, f64::min)
+/// The inside of a convex outline: of each side, a point and the unit normal inward.
+struct Inside(Vec<(Point, Point)>);
+
+impl Inside {
+    fn of(hull: &[Point]) -> Self {
+        let side = |(a, b): (&Point, &Point)| {
+            let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
+            (*a, [(a[1] - b[1]) / length, (b[0] - a[0]) / length])
+        };
+        Self(hull.iter().zip(hull.iter().cycle().skip(1)).map(side).collect())
+    }
+
+    /// The distance to the nearest side, negative outside.
+    fn distance(&self, point: Point) -> f64 {
+        let distance = |(a, n): &(Point, Point)| (point[0] - a[0]) * n[0] + (point[1] - a[1]) * n[1];
+        self.0.iter().map(distance).fold(f64::INFINITY, f64::min)
+    }
 }
 
 #[cfg(test)]
@@ -191,8 +204,9 @@ mod tests {
         let inside = [[0.5, 0.5], [0.5, 0.0], [f64::NAN, 0.0]];
         let hull = convex_hull(square.into_iter().chain(inside).collect());
         assert_eq!(hull, square);
-        assert!((distance_inside(&hull, [0.5, 0.25]) - 0.25).abs() < 1e-15);
-        assert!(distance_inside(&hull, [2.0, 0.5]) < 0.0);
+        let inside = Inside::of(&hull);
+        assert!((inside.distance([0.5, 0.25]) - 0.25).abs() < 1e-15);
+        assert!(inside.distance([2.0, 0.5]) < 0.0);
     }
 
     #[test]
