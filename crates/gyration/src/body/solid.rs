@@ -63,6 +63,11 @@ impl Solid {
         self.radii.iter().copied().reduce(f64::max)
     }
 
+    /// Whether it is one ball about its centre of mass.
+    pub fn is_ball(&self) -> bool {
+        self.count_parts() == 1 && self.part(0).ball().is_some()
+    }
+
     /// The support function h(n) = max X·n over the surface about the centre of mass [m]; −∞ without a surface.
     pub fn extent(&self, direction: &Vec3) -> f64 {
         let lowest = |surface: &Surface| surface.smallest_gap(&GapField::new(0.0, -direction)).0;

@@ -12,6 +12,7 @@ use crate::pair::PairLoads;
 
 /// What a slab is wider than: the distance of the centres less so many radii of both. With d_i ≤ g_i + 2r_i on both
 /// surfaces, Φ ≤ (g + 2r_A + 2r_B) Σ w_i S_i^−p; a plane across the distance D ≥ |Δ| − r_A − r_B has D times that sum.
+/// That of two balls is D.
 const WIDEST: f64 = 3.0;
 /// So few bodies are asked one by one.
 const FEW: usize = 64;
@@ -68,8 +69,9 @@ fn smallest_gap(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible>
         search.ask(*other)?;
     }
     let radii = near.largest_radius() + at.body.solid.radius().unwrap_or(0.0);
+    let widest = if near.are_balls() { 1.0 } else { WIDEST };
     for (distance, other) in near.outward(&at.motion.placement.position) {
-        if distance - WIDEST * radii > search.smallest {
+        if distance - widest * radii > search.smallest {
             break;
         }
         search.ask(other)?;
@@ -80,7 +82,8 @@ fn smallest_gap(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible>
 impl Search<'_, '_> {
     /// What the slab of a pair is no narrower than [m].
     fn least(&self, pair: &Pair) -> f64 {
-        PartyAt::apart(&self.at.parties_of(pair), pair.cell).norm() - WIDEST * pair.form.radii().iter().sum::<f64>()
+        let distance = PartyAt::apart(&self.at.parties_of(pair), pair.cell).norm();
+        pair.form.gap_of_balls(distance).unwrap_or_else(|| distance - WIDEST * pair.form.radii().iter().sum::<f64>())
     }
 
     /// Looks at the pairs that are not listed of the body and another.
@@ -92,7 +95,8 @@ impl Search<'_, '_> {
         }
         let beside = at.beside(other);
         let radii = [at.body, beside.body].map(|body| body.solid.radius().unwrap_or(0.0));
-        if at.from(&beside).norm() - WIDEST * (radii[0] + radii[1]) >= self.smallest {
+        let widest = if at.near().are_balls() { 1.0 } else { WIDEST };
+        if at.from(&beside).norm() - widest * (radii[0] + radii[1]) >= self.smallest {
             return Ok(());
         }
         let rules = at.model.rules();

@@ -22,6 +22,8 @@ use std::sync::{Arc, OnceLock};
 const FEW: usize = 128;
 /// The skin, as a part of the mean radius of the bodies that meet.
 const SKIN: f64 = 0.5;
+/// What rounding leaves of a distance, as a part of it.
+const ROUNDING: f64 = 1e-12;
 /// A body so many times as large as the median is asked for its gap one by one, and so many of them at most.
 const OUTSIZE: f64 = 4.0;
 const MOST_OUTSIZE: usize = 32;
@@ -48,6 +50,8 @@ pub struct NeighbourList {
 /// The sizes of the bodies that meet others.
 #[derive(Debug, Clone, Default)]
 struct Sizes {
+    /// Whether all of them are balls about their centres of mass.
+    are_balls: bool,
     /// Those that are far larger than most, if they are few.
     outsize: Vec<usize>,
     /// The largest radius of all others [m].
@@ -56,7 +60,7 @@ struct Sizes {
 
 impl Sizes {
     /// Of bodies with their radii [m].
-    fn of(bodies: &[(usize, f64)]) -> Self {
+    fn of(bodies: &[(usize, f64)], are_balls: bool) -> Self {
         let mut radii: Vec<f64> = bodies.iter().map(|(_, radius)| *radius).collect();
         radii.sort_unstable_by(f64::total_cmp);
         let most = OUTSIZE * radii.get(radii.len() / 2).copied().unwrap_or(0.0);
@@ -67,7 +71,7 @@ impl Sizes {
         }
         let others = bodies.iter().filter(|(body, _)| !outsize.contains(body));
         let largest_radius = others.map(|(_, radius)| *radius).fold(0.0, f64::max);
-        Self { outsize, largest_radius }
+        Self { are_balls, outsize, largest_radius }
     }
 }
 
@@ -149,7 +153,9 @@ impl NeighbourList {
             let meeting: Vec<(usize, f64)> =
                 meeting.filter_map(|body| Some((body, bodies[body].solid.radius()?))).collect();
             let skin = SKIN * meeting.iter().map(|(_, radius)| radius).sum::<f64>() / meeting.len() as f64;
-            *self = Self { rules: rules.clone(), is_whole, skin, sizes: Sizes::of(&meeting), ..Self::default() };
+            let is_ball = |body: usize| bodies[body].solid.is_ball() && bodies[body].affine().is_none();
+            let sizes = Sizes::of(&meeting, meeting.iter().all(|(body, _)| is_ball(*body)));
+            *self = Self { rules: rules.clone(), is_whole, skin, sizes, ..Self::default() };
         }
         self.make((bodies, with_supports), place);
     }
@@ -210,6 +216,11 @@ impl NeighbourList {
         (!is_listed).then(|| Pair::all_of(&self.rules, rule, both, solids)).into_iter().flatten()
     }
 
+    /// Whether all bodies that meet somebody are rigid balls about their centres of mass.
+    pub fn are_balls(&self) -> bool {
+        self.sizes.are_balls
+    }
+
     /// The few bodies that are far larger than the others.
     pub fn outsize(&self) -> &[usize] {
         &self.sizes.outsize
@@ -231,7 +242,7 @@ impl NeighbourList {
         let from: [f64; 3] = if is_finite(from) { (*from).into() } else { [0.0; 3] };
         let skin = self.skin;
         let nearest = tree.nearest_neighbor_iter_with_distance_2(from);
-        nearest.map(move |(place, square)| (square.sqrt() - 0.5 * skin, place.data))
+        nearest.map(move |(place, square)| ((1.0 - ROUNDING) * square.sqrt() - 0.5 * skin, place.data))
     }
 }
 
