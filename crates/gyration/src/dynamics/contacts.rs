@@ -11,6 +11,9 @@ use crate::support::{PlaneAt, PlaneMotion, Support};
 use crate::surface::{GapClosed, GapField, Surface};
 use crate::tensor::Vec3;
 
+/// What rounding leaves of a length, as a part of it.
+const ROUNDING: f64 = 1e-12;
+
 /// Hands a contact of a body to `integrate`, unless a gap is closed; none without a surface.
 #[inline]
 pub(super) fn meet<T>(
@@ -102,11 +105,20 @@ fn least_of_supports(model: &Model, index: usize, field: impl Fn(&Surface, &Supp
 /// The support next to a body's surface, whether or not the two have a contact; none without supports or surface.
 pub fn nearest(model: &Model, time: f64, index: usize, motion: &BodyMotion) -> Option<Nearest> {
     let surface = model.bodies[index].solid.surface.as_ref()?;
-    let near = model.supports.iter().map(|support| {
-        let (gap, point) = surface.smallest_gap(&support.gap_field(&motion.placement, time));
-        let normal = support.at(time).normal;
-        let carried = support.motion_at(time).at(&motion.placement.place(&point));
-        Nearest { gap, normal, point, speed: (motion.velocity.at(&point) - carried).dot(&normal) }
-    });
-    near.min_by(|a, b| a.gap.total_cmp(&b.gap))
+    let radius = model.bodies[index].solid.radius().unwrap_or(f64::INFINITY);
+    let mut nearest: Option<Nearest> = None;
+    for support in model.supports.iter() {
+        let field = support.gap_field(&motion.placement, time);
+        let least = field.height - (1.0 + ROUNDING) * radius * field.direction.norm();
+        if nearest.is_some_and(|nearest| least > nearest.gap) {
+            continue;
+        }
+        let (gap, point) = surface.smallest_gap(&field);
+        if nearest.is_none_or(|nearest| gap.total_cmp(&nearest.gap).is_lt()) {
+            let normal = support.at(time).normal;
+            let carried = support.motion_at(time).at(&motion.placement.place(&point));
+            nearest = Some(Nearest { gap, normal, point, speed: (motion.velocity.at(&point) - carried).dot(&normal) });
+        }
+    }
+    nearest
 }
