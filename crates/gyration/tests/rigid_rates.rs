@@ -6,7 +6,7 @@ use crate::moving::{
 };
 use gyration::balance::{kinetic_energy, observe};
 use gyration::body::{Body, BodyKind, RigidInertia};
-use gyration::contact::AreaMeasure;
+use gyration::contact::{AreaMeasure, Contact, LawSet};
 use gyration::dynamics::Workspace;
 use gyration::kinematics::Quaternion;
 use gyration::ledger::{Energy, Work};
@@ -14,8 +14,10 @@ use gyration::load::Frame;
 use gyration::model::Model;
 use gyration::shape::Shape;
 use gyration::state::{RigidStart, State, Turn};
+use gyration::support::{Support, SupportMotion};
 use gyration::tensor::Vec3;
 use proptest::prelude::*;
+use std::sync::Arc;
 
 /// A body under everything that may act on a rigid one.
 fn body(shape: Shape, pinned: bool) -> Body {
@@ -41,6 +43,58 @@ fn state(model: &Model, numbers: &[f64; 10]) -> State {
     let mut state = State::start(model, &vec![start.into(); model.bodies.len()]);
     state.time = 0.37;
     state
+}
+
+/// Bodies over one plane at rest: what is left out of the rates is below the rounding of the velocities, and near the
+/// plane nothing is.
+#[test]
+fn supports_that_are_neglected_would_not_change_the_digits_of_a_motion() {
+    let plane = Support { name: String::new(), origin: Vec3::x(), normal: Vec3::z(), motion: SupportMotion::default() };
+    let laws = Arc::new(LawSet::new(AreaMeasure::default(), moving::laws([6.0, 5.0, 4.0, 7.0])));
+    let bodies: Vec<Body> = model([6.0; 4]).bodies.iter().map(|body| (**body).clone()).collect();
+    let contacts = (0..bodies.len()).map(|body| Contact::new(body, 0, laws.clone())).collect();
+    let whole = Model::new(Vec3::zeros(), vec![plane], bodies).with_contacts(contacts);
+    let speeds = vec![2.0; whole.bodies.len()];
+    let (neglecting, lonely) =
+        (whole.clone().neglecting_far_supports(&speeds), whole.clone().with_contacts(Vec::new()));
+    let mut left_out = Vec::new();
+    for height in [3.0, 30.0, 300.0, 3e3, 3e4, 3e5] {
+        let mut state = state(&whole, &[0.4, -0.3, 0.0, 0.8, 0.6, 0.5, -0.4, 0.3, 0.2, -0.7]);
+        for (body, slots) in whole.bodies.iter().zip(0..).map(|(body, index)| (body, whole.slots(index))) {
+            if body.pin.is_none() {
+                state.bodies[slots.position()][2] = height;
+            }
+        }
+        let rates = |model: &Model| evaluate(model, 0.0, &state.bodies).0;
+        let [all, without, alone] = [&whole, &neglecting, &lonely].map(rates);
+        let mut count = 0;
+        for (index, body) in whole.bodies.iter().enumerate() {
+            let slots = whole.slots(index);
+            let own = |rates: &[f64]| rates[slots.block()].to_vec();
+            if own(&all) == own(&without) {
+                continue;
+            }
+            count += 1;
+            assert_eq!(own(&without), own(&alone), "left out whole");
+            let off = |range: std::ops::Range<usize>| range.map(|k| (all[k] - without[k]).powi(2)).sum::<f64>().sqrt();
+            let radius = body.solid.radius().unwrap();
+            let changed = off(slots.velocity()) + radius * off(slots.rate());
+            assert!(changed * radius <= 0.5 * f64::EPSILON * 4.0, "{changed:e} m/s² at {height} m");
+        }
+        left_out.push(count);
+    }
+    println!("left out of {}: {left_out:?}", whole.bodies.len());
+    assert!(left_out[0] == 0 && left_out.iter().any(|count| *count > 3));
+    // A body that is much faster than its scale feels all.
+    let slow = whole.clone().neglecting_far_supports(&vec![1e-6; whole.bodies.len()]);
+    let mut state = state(&whole, &[0.5; 10]);
+    (0..whole.bodies.len()).for_each(|index| {
+        let slots = whole.slots(index);
+        if whole.bodies[index].pin.is_none() {
+            state.bodies[slots.position()][2] = 3e5;
+        }
+    });
+    assert_eq!(evaluate(&slow, 0.0, &state.bodies), evaluate(&whole, 0.0, &state.bodies));
 }
 
 fn strategy() -> impl Strategy<Value = ([f64; 10], [f64; 4])> {

@@ -100,6 +100,7 @@ impl Simulation {
         check_resistances(model).map_err(outside)?;
         let speeds = first_rates(model, start).and_then(|slopes| speed_scales(model, start, &slopes));
         let speeds = speeds.map_err(outside)?;
+        let model = &model.clone().neglecting_far_supports(&speeds);
         let setting = Setting { model, start, speeds: &speeds, plan: &plan };
         let islands = members.into_iter().map(|members| Island::new(setting, members, !changes).map(Box::new));
         let islands = islands.collect::<Result<Vec<_>, _>>().map_err(RunError::at_start)?;

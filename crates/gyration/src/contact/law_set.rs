@@ -3,6 +3,7 @@
 //! Laws share powers of the gap (damping and friction often have the same exponent, and the derivative of d^−6 is the
 //! power that d^−7 asks for), so the requests are merged once, when the set is made; all bodies that obey it share it.
 
+use super::negligible::Negligible;
 use super::potential::{self, PotentialTerm};
 use super::{Action, AreaMeasure, ContactLaw, OneSided, Term};
 use crate::load::{Interaction, Party};
@@ -18,6 +19,8 @@ pub struct Contact {
     pub support: usize,
     /// What acts between them.
     pub law_set: Arc<LawSet>,
+    /// From where on that is negligible.
+    pub negligible: Negligible,
 }
 
 /// Laws that act together.
@@ -83,9 +86,9 @@ impl ContactScratch {
 }
 
 impl Contact {
-    /// A contact of a body with a support.
+    /// A contact of a body with a support, however far it is.
     pub fn new(body: usize, support: usize, law_set: impl Into<Arc<LawSet>>) -> Self {
-        Self { body, support, law_set: law_set.into() }
+        Self { body, support, law_set: law_set.into(), negligible: Negligible::NOWHERE }
     }
 
     /// The same laws between a body and the support, renumbered.

@@ -20,6 +20,7 @@ pub(super) fn wrench(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<
     let (mut wrench, mut powers) = (Wrench::default(), Powers::default());
     let mut others: Option<Acting> = None;
     at.try_each_load(|load| match &load {
+        Load::Contact(contact) if is_negligible(at, turn, contact) => Ok(()),
         Load::Contact(contact) => {
             let Some(loads) = contact_loads(at, turn, contact, scratch, &mut powers)? else { return Ok(()) };
             wrench += loads.wrench;
@@ -47,6 +48,12 @@ pub(super) fn wrench(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<
         powers += others.powers;
     }
     Ok((wrench, powers))
+}
+
+/// Whether a contact does nothing that the digits of the motion tell.
+#[inline]
+pub(super) fn is_negligible(at: &MotionAt, turn: &Turn, contact: &Contact) -> bool {
+    contact.negligible.holds(at.motion, turn.spin.norm(), &at.model.supports[contact.support])
 }
 
 /// The laws of a contact; the powers of central ones only where the ledger has them as works.

@@ -124,6 +124,14 @@ impl<J: Interaction> Interactions<J> {
         Arc::ptr_eq(&self.all, &others.all)
     }
 
+    /// Others between the same parties.
+    #[must_use]
+    pub fn changed(&self, change: impl Fn(&J) -> J) -> Self {
+        let all: Arc<[J]> = self.all.iter().map(change).collect();
+        debug_assert!(all.iter().map(J::parties).eq(self.all.iter().map(J::parties)), "they join whom they joined");
+        Self { all, starts: Arc::clone(&self.starts), ends: Arc::clone(&self.ends) }
+    }
+
     /// Those that have none but some bodies, which ascend, as `renumbered` makes them with the places of their bodies
     /// among these.
     #[must_use]

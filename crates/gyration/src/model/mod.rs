@@ -6,6 +6,7 @@ mod build;
 mod chains;
 mod deformed;
 mod ledger;
+mod negligible;
 mod part;
 mod parties;
 

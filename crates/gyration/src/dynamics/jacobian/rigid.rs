@@ -12,7 +12,7 @@ use super::super::Scratch;
 use super::super::contacts::{meet, turning_of};
 use super::super::immersed::RigidImmersion;
 use super::super::loads::add_slopes;
-use super::super::rigid::relative_motion;
+use super::super::rigid::{is_negligible, relative_motion};
 use crate::acting::Load;
 use crate::body::{Body, RigidInertia, Slots};
 use crate::contact::{ContactWrench, Meeting, RigidMotion};
@@ -73,6 +73,7 @@ impl RigidSlopes {
         let mut others: Option<LoadSlopes> = None;
         at.try_each_load(|load| {
             match &load {
+                Load::Contact(contact) if is_negligible(at, turn, contact) => {}
                 Load::Contact(contact) => {
                     let integrated = meet(at, contact, |meeting| {
                         let Meeting { surface, field, .. } = meeting;
