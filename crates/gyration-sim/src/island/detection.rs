@@ -140,7 +140,7 @@ impl Island {
                     events::lift_off(model, body, seen.map_or(f64::NAN, |seen| seen.contact_force.norm()), speed)
                 }
                 _ => {
-                    let gaps = workspace.pair_gaps(model, time, bodies.into()).ok();
+                    let gaps = workspace.pair_gaps_of((model, body), time, bodies.into()).ok();
                     events::approach(model, time, body, (&motion(), gaps), speed)
                 }
             }

@@ -130,6 +130,20 @@ impl Workspace {
         instants.slabs(model, time, state, |mut instant| inertialess::solve(&mut instant, scratch))
     }
 
+    /// The same of the pairs of one body; those of all others are infinite, since nobody looks at them.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] if no plane separates it from another.
+    pub fn pair_gaps_of(
+        &mut self,
+        (model, body): (&Model, usize),
+        time: f64,
+        state: Numbers,
+    ) -> Result<&PairGaps, Inadmissible> {
+        let Self { instants, scratch } = self;
+        instants.slabs_of((model, body), time, state, |mut instant| inertialess::solve(&mut instant, scratch))
+    }
+
     /// The slabs that were found last, of the pairs that were looked at until something failed; none once they are
     /// remembered.
     pub fn found_gaps(&self) -> &PairGaps {

@@ -13,6 +13,7 @@ use crate::load::{BondFault, BondLoads, BondPlace, BondSlopes, Interaction, Spri
 use crate::model::{Model, PATIENCE};
 use crate::neighbours::Pair;
 use crate::pair::{Guess, PairFault, PairGap, PairLoads, PairScratch, PairSlopes, Side};
+use crate::party::Party;
 use crate::tensor::Vec3;
 use gyration_expression::Scratch as FormulaScratch;
 
@@ -45,6 +46,8 @@ pub(super) struct Looking<'a> {
     pub remembered: &'a mut Remembered,
     pub room: &'a mut PairScratch,
     pub wanted: Wanted,
+    /// The body whose pairs alone are looked at, if it is one.
+    pub only: Option<usize>,
 }
 
 /// What is asked of pairs.
@@ -274,12 +277,12 @@ pub(super) fn find_slabs(looking: &mut Looking, slabs: &mut PairGaps) -> Result<
 }
 
 impl Looking<'_> {
-    /// Hands the listed pairs to `each`; none in the place of one out of reach.
+    /// Hands the listed pairs to `each`; none in the place of one that is out of reach, or not looked at.
     fn for_each(
         &mut self,
         mut each: impl FnMut(Option<Looked>, &mut PairScratch) -> Result<(), PairFault>,
     ) -> Result<(), Inadmissible> {
-        let Self { model, motions, remembered, room, wanted } = self;
+        let Self { model, motions, remembered, room, wanted, only } = self;
         let pairs = motions.near().pairs();
         remembered.find(pairs);
         for (number, pair) in pairs.all().iter().enumerate() {
@@ -289,7 +292,8 @@ impl Looking<'_> {
             }
             let guess = remembered.guess(number, motions.time());
             let looked = Looked { pair, parties: &parties, guess: guess.as_ref(), asked: *wanted };
-            let looked = motions.place(number).map(|_| looked);
+            let is_asked = only.is_none_or(|body| pair.parties.contains(&Party::Body(body)));
+            let looked = motions.place(number).filter(|_| is_asked).map(|_| looked);
             each(looked, room).map_err(|fault| outside(pair, fault))?;
         }
         Ok(())

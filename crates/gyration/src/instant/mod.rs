@@ -115,6 +115,30 @@ impl Instants {
         state: Numbers,
         balance: impl FnOnce(Instant) -> Result<(), Inadmissible>,
     ) -> Result<&PairGaps, Inadmissible> {
+        self.find_slabs((model, None), time, state, balance)
+    }
+
+    /// The same of the pairs of one body; those of all others are left infinite.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] if no plane separates it from another.
+    pub fn slabs_of(
+        &mut self,
+        (model, body): (&Model, usize),
+        time: f64,
+        state: Numbers,
+        balance: impl FnOnce(Instant) -> Result<(), Inadmissible>,
+    ) -> Result<&PairGaps, Inadmissible> {
+        self.find_slabs((model, Some(body)), time, state, balance)
+    }
+
+    fn find_slabs(
+        &mut self,
+        (model, only): (&Model, Option<usize>),
+        time: f64,
+        state: Numbers,
+        balance: impl FnOnce(Instant) -> Result<(), Inadmissible>,
+    ) -> Result<&PairGaps, Inadmissible> {
         if model.rules().is_empty() {
             self.slabs.become_empty();
             return Ok(&self.slabs);
@@ -126,7 +150,8 @@ impl Instants {
             balance(self.read(model, time, state)?)?;
         }
         let Self { motions, slabs, remembered, room, .. } = self;
-        between::find_slabs(&mut Looking { model, motions, remembered, room, wanted: Wanted::Loads }, slabs)?;
+        let mut looking = Looking { model, motions, remembered, room, wanted: Wanted::Loads, only };
+        between::find_slabs(&mut looking, slabs)?;
         Ok(slabs)
     }
 
@@ -168,7 +193,7 @@ impl Instant<'_> {
     /// What stands between bodies, and whoever looks for it.
     fn looking(&mut self) -> (&mut Between, Looking<'_>) {
         let Self { model, motions, between, remembered, room, wanted } = self;
-        (between, Looking { model, motions, remembered, room, wanted: *wanted })
+        (between, Looking { model, motions, remembered, room, wanted: *wanted, only: None })
     }
 
     /// Finds again what pairs do that feel the velocities of bodies without inertia.
