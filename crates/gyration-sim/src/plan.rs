@@ -2,10 +2,11 @@
 
 use crate::adapter::Tolerance;
 use crate::rows::Extras;
+use gyration::Team;
 use gyration::model::Model;
 use gyration_ode::{ImplicitOrder, Method, Options};
 use gyration_scene::Built;
-use gyration_threads::Threads;
+use gyration_threads::{Threads, each_on_threads};
 use std::num::NonZeroUsize;
 
 /// How long to run, how finely to sample, how precisely to step.
@@ -53,6 +54,12 @@ impl RunPlan {
         let near = ((time / self.sample) as u64).max(1);
         let first = (near.saturating_sub(1).max(1)..=near).find(|k| self.sample_time(*k) > time);
         first.unwrap_or_else(|| (near + 1..).find(|k| self.sample_time(*k) > time).unwrap_or(u64::MAX))
+    }
+
+    /// The threads among which an evaluation of many bodies is shared out, if there are several.
+    pub(crate) fn team(&self) -> Option<Team> {
+        let threads = self.threads.filter(|threads| threads.get() > 1)?;
+        Some(Team { threads, each: each_on_threads })
     }
 
     /// The plan of a run that has the machine to itself: with as many threads as its scene asks for, else with one for

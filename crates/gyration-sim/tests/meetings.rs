@@ -158,7 +158,7 @@ fn samples_windows_and_threads_leave_no_trace() {
 /// Balls that fall into a corner of three planes, so that islands meet and part while events come and go.
 #[test]
 fn events_of_a_step_that_is_cut_stay_what_they_were() {
-    let events = |sample: &str| {
+    let events = |sample: &str, threads: usize| {
         let mut text = HEAD.replace("gravity = [0, 0, 0]", "gravity = [0, 0, -9.81]");
         for (name, normal) in [("left", [1.0, 0.0, 0.4]), ("right", [-1.0, 0.2, 0.5]), ("back", [0.0, -1.0, 0.7])] {
             text += &format!(
@@ -177,14 +177,17 @@ fn events_of_a_step_that_is_cut_stay_what_they_were() {
         }
         let scene = parsed(&text, &["time.end=0.6", "solver.rtol=1e-4", "solver.atol=1e-6", sample]);
         let built = scene.built();
-        let found = run(&(built.model.clone(), built.state.clone(), RunPlan::from(built)));
+        let plan = RunPlan { threads: NonZeroUsize::new(threads), ..RunPlan::from(built) };
+        let found = run(&(built.model.clone(), built.state.clone(), plan));
         assert_eq!(found.outcome, Outcome::Completed);
         (found.kept.events, found.state)
     };
-    let (one, end) = events("time.sample=0.1");
+    let (one, end) = events("time.sample=0.1", 1);
     assert!(one.len() > 100, "{}", one.len());
-    for sample in ["time.sample=0.01", "time.sample=0.001", "time.sample=0.0003"] {
-        let (other, there) = events(sample);
+    // Of an island of so many balls, several threads find pairs and loads.
+    let runs = [("time.sample=0.01", 1), ("time.sample=0.001", 1), ("time.sample=0.0003", 1), ("time.sample=0.1", 3)];
+    for (sample, threads) in runs {
+        let (other, there) = events(sample, threads);
         assert_eq!((other.len(), there), (one.len(), end.clone()), "{sample}");
         assert_eq!(format!("{other:?}"), format!("{one:?}"), "{sample}");
     }

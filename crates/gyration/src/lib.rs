@@ -3,7 +3,7 @@
 //!   p(X, t) = p₀(t) + P(t) (X − X₀).
 //!
 //! Shapes, mass, kinematics, contact laws, loads, bodies, rates and balances. No input or output, no clock, no random
-//! numbers, no threads. `ARCHITECTURE.md` has the order of the modules. Read [`dynamics::rates`] first.
+//! numbers, no threads of its own. `ARCHITECTURE.md` has the order of the modules. Read [`dynamics::rates`] first.
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
@@ -38,7 +38,9 @@ pub mod solid_support;
 pub mod state;
 pub mod support;
 pub mod surface;
+mod team;
 pub mod tensor;
 
 pub use inadmissible::{FormulaOf, Inadmissible, Quantity};
 pub use party::Party;
+pub use team::{EachOnThreads, Team};

@@ -31,16 +31,20 @@ use crate::peaks::Peaks;
 use crate::plan::RunPlan;
 use crate::run_state::{IslandMemory, IslandState};
 pub(crate) use effort::Effort;
+use gyration::Team;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{Integrator, Memory, MemoryError, StepReport};
-use gyration_threads::Interruption;
+use gyration_threads::{Interruption, with_threads_at_hand};
 use horizon::horizon;
 pub(crate) use path_bound::PathBound;
 pub(crate) use paths::Paths;
 use restart_point::RestartPoint;
 use std::ops::Range;
 use step_end::StepEnd;
+
+/// An evaluation of so many bodies takes ten times as long as it takes to wake a thread.
+const WORTH_A_TEAM: usize = 12;
 
 /// What islands of a run begin from.
 #[derive(Clone, Copy)]
@@ -247,6 +251,23 @@ impl Island {
         self.stop = None;
         self.read_step_end();
         Ok(())
+    }
+
+    /// Whether threads that share out its pairs and bodies among them have enough to do.
+    pub fn is_worth_a_team(&self) -> bool {
+        self.members.len() >= WORTH_A_TEAM
+    }
+
+    /// The same as [`Island::reach`], with a team if it is worth one.
+    pub fn reach_with(&mut self, team: Option<Team>, until: f64, most: u64, plan: &RunPlan) {
+        let Some(team) = team.filter(|_| self.is_worth_a_team() && self.time() < until) else {
+            return self.reach(until, most, plan);
+        };
+        with_threads_at_hand(team.threads, || {
+            self.system.observed().1.work_with(Some(team));
+            self.reach(until, most, plan);
+            self.system.observed().1.work_with(None);
+        });
     }
 
     /// Steps until a time is reached, or so many steps are made; the reason is in `stop` if it cannot go on. An

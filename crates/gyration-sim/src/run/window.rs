@@ -161,19 +161,27 @@ impl Simulation {
     /// Lets all islands come to a time, or make so many steps towards it, all together.
     fn reach(&mut self, until: f64, most: u64) {
         let is_step = self.is_step(until);
+        let team = self.plan.team();
         if let Some(only) = self.partition.islands.only() {
-            return only.reach(until, most, &self.plan);
+            return only.reach_with(team, until, most, &self.plan);
         }
         let (plan, shared, threads) = (&self.plan, &self.shared, self.plan.threads.unwrap_or(NonZeroUsize::MIN));
         let count = self.partition.islands.iter().filter(|island| island.time() < until).count();
         let most = (most / count.max(1) as u64).max(1);
         let behind = self.partition.islands.iter_mut().filter(|island| island.time() < until);
         if threads.get() == 1 || count == 1 || is_step {
-            return shared.with_scratch(behind, |island| island.reach(until, most, plan));
+            return shared.with_scratch(behind, |island| island.reach_with(team, until, most, plan));
         }
         let interruption = Interruption::in_force();
-        let mut behind: Vec<&mut Island> = behind.collect();
-        let piece = count.div_ceil(PIECES * threads.get()).max(1);
+        let (mut large, mut behind): (Vec<&mut Island>, Vec<&mut Island>) =
+            behind.partition(|island| island.is_worth_a_team());
+        if large.len() < threads.get() {
+            // They would keep as many threads waiting as there are more.
+            large.into_iter().for_each(|island| island.reach_with(team, until, most, plan));
+        } else {
+            behind.append(&mut large);
+        }
+        let piece = behind.len().div_ceil(PIECES * threads.get()).max(1);
         in_order(behind.chunks_mut(piece), threads, |islands| {
             let islands = islands.iter_mut().map(|island| &mut **island);
             interruption.within(|| shared.with_scratch(islands, |island| island.reach(until, most, plan)));
@@ -199,7 +207,7 @@ impl Simulation {
             let made = partition.made().to_vec();
             for first in &made {
                 let island = std::iter::once(&mut partition.islands[*first]);
-                shared.with_scratch(island, |island| island.reach(known, MOST_STEPS, plan));
+                shared.with_scratch(island, |island| island.reach_with(plan.team(), known, MOST_STEPS, plan));
             }
             let is_there = |first: &usize| {
                 let island = &partition.islands[*first];

@@ -42,7 +42,7 @@ pub use rates::{jacobian, rates};
 pub use reaction::reaction;
 
 pub(crate) use affine::{balance as affine_balance, moment};
-pub(crate) use body_rates::body_rates;
+pub(crate) use body_rates::{BodyLoads, body_rates};
 pub(crate) use by_kind::{about_pin, linear_friction, of_history};
 pub(crate) use contractile::ContractileMotion;
 pub(crate) use history_reaction::history_reaction;
@@ -58,6 +58,7 @@ use crate::load::FrictionFault;
 use crate::model::Model;
 use crate::pair::PairScratch;
 use crate::state::State;
+use crate::team::Team;
 use nalgebra::DMatrix;
 
 /// Memory of the mechanics, reused from call to call.
@@ -65,6 +66,10 @@ use nalgebra::DMatrix;
 pub struct Workspace {
     instants: Instants,
     scratch: Scratch,
+    /// More scratch, for a team.
+    rooms: Vec<Scratch>,
+    /// What acts on each body.
+    loads: Vec<BodyLoads>,
 }
 
 /// Room for the moments of contacts and pairs, and for matrices.
@@ -96,6 +101,11 @@ impl Scratch {
 }
 
 impl Workspace {
+    /// Shares out what comes among a team, or no longer: the same is found.
+    pub fn work_with(&mut self, team: Option<Team>) {
+        self.instants.team = team;
+    }
+
     /// Reads a state, with the velocities that their balance gives to bodies without inertia.
     ///
     /// # Errors
@@ -105,7 +115,7 @@ impl Workspace {
         model: &'a Model,
         state: &State,
     ) -> Result<(Instant<'a>, &'a mut Scratch), Inadmissible> {
-        let Self { instants, scratch } = self;
+        let Self { instants, scratch, .. } = self;
         let mut instant = instants.read(model, state.time, state.numbers())?;
         inertialess::solve(&mut instant, scratch)?;
         joints::solve(&mut instant, scratch)?;
@@ -126,7 +136,7 @@ impl Workspace {
     /// # Errors
     /// [`Inadmissible`] if no plane separates two of them.
     pub fn pair_gaps(&mut self, model: &Model, time: f64, state: Numbers) -> Result<&PairGaps, Inadmissible> {
-        let Self { instants, scratch } = self;
+        let Self { instants, scratch, .. } = self;
         instants.slabs(model, time, state, |mut instant| inertialess::solve(&mut instant, scratch))
     }
 
@@ -140,7 +150,7 @@ impl Workspace {
         time: f64,
         state: Numbers,
     ) -> Result<&PairGaps, Inadmissible> {
-        let Self { instants, scratch } = self;
+        let Self { instants, scratch, .. } = self;
         instants.slabs_of((model, body), time, state, |mut instant| inertialess::solve(&mut instant, scratch))
     }
 
@@ -156,7 +166,7 @@ impl Workspace {
     /// # Errors
     /// [`Inadmissible`] if no plane separates two of them; nothing is remembered then.
     pub fn remember_pairs(&mut self, model: &Model, time: f64, state: Numbers) -> Result<&PairGaps, Inadmissible> {
-        let Self { instants, scratch } = self;
+        let Self { instants, scratch, .. } = self;
         instants.remember(model, time, state, |mut instant| inertialess::solve(&mut instant, scratch))
     }
 

@@ -11,12 +11,13 @@
 //! − X₀: τ_p = τ − r × Rᵀ(f + m g), M_p = M − (f + m g) ⊗ r. Source: `docs/theory-rigid.md`, `docs/theory-affine.md`,
 //! `docs/theory-contractile.md`.
 
-use super::body_rates::body_rates;
+use super::body_rates::BodyLoads;
 use super::jacobian::{Blocks, add_interactions, body_jacobian};
 use super::{Workspace, inertialess, joints};
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
 use crate::model::Model;
+use crate::team::{Rooms, find_each};
 
 /// The rates of all bodies and the powers of all works at time t.
 ///
@@ -32,15 +33,24 @@ pub fn rates(
     rates: &mut [f64],
     powers: &mut [f64],
 ) -> Result<(), Inadmissible> {
-    let Workspace { instants, scratch } = workspace;
+    let Workspace { instants, scratch, rooms, loads } = workspace;
+    let team = instants.team;
     let mut instant = instants.read(model, time, state)?;
     inertialess::solve(&mut instant, scratch)?;
     joints::solve(&mut instant, scratch)?;
+    loads.resize(model.bodies.len(), BodyLoads::default());
+    find_each(team, loads, Rooms { own: scratch, others: rooms }, |index, loads, room| {
+        let at = instant.at(index);
+        if at.body.has_inertia() {
+            *loads = BodyLoads::of(&at, room)?;
+        }
+        Ok(())
+    })?;
     powers.fill(0.0);
-    for index in 0..model.bodies.len() {
+    for (index, loads) in loads.iter().enumerate() {
         let at = instant.at(index);
         let done = match at.body.has_inertia() {
-            true => body_rates(&at, model.slots(index), scratch, rates)?,
+            true => loads.balanced(&at, model.slots(index), rates),
             false => inertialess::fill(&at, scratch, rates)?,
         };
         for (work, power) in model.works().iter().zip(powers.iter_mut()) {
@@ -63,7 +73,7 @@ pub fn jacobian(
     state: Numbers,
     blocks: &mut (impl Blocks + ?Sized),
 ) -> Result<(), Inadmissible> {
-    let Workspace { instants, scratch } = workspace;
+    let Workspace { instants, scratch, .. } = workspace;
     let mut instant = instants.differentiate(model, time, state)?;
     inertialess::solve(&mut instant, scratch)?;
     joints::solve(&mut instant, scratch)?;

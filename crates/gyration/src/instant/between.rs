@@ -12,20 +12,17 @@ use crate::kinematics::BodyMotion;
 use crate::load::{BondFault, BondLoads, BondPlace, BondSlopes, Interaction, SpringLoads};
 use crate::model::{Model, PATIENCE};
 use crate::neighbours::Pair;
-use crate::pair::{Guess, PairFault, PairGap, PairLoads, PairScratch, PairSlopes, Side};
+use crate::pair::{Guess, PairFault, PairLoads, PairScratch, PairSlopes, Side};
 use crate::party::Party;
+use crate::team::{Rooms, Team, find_each};
 use crate::tensor::Vec3;
 use gyration_expression::Scratch as FormulaScratch;
 
 /// What springs and the pairs within reach do, these in order of the list.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Between {
-    /// None of a pair that a look at its slab has shown to be out of reach.
-    loads: Vec<Option<PairLoads>>,
-    /// The derivatives of some of them; more than there are now, if there were more before.
-    slopes: Vec<PairSlopes>,
-    /// Where these are, by the place of a pair.
-    sloped: Vec<Option<usize>>,
+    /// By their place among those within reach; more than there are now, if there were more before.
+    pairs: Vec<FoundPair>,
     /// What the springs of the model exert, in their order.
     springs: Vec<SpringLoads>,
     /// What the bonds of the model do, in their order.
@@ -39,12 +36,23 @@ pub(super) struct Between {
     motor_slopes: Vec<Option<MotorSlopes>>,
 }
 
-/// Whoever looks at the pairs of an instant, one after the other.
+/// What a pair within reach does.
+#[derive(Debug, Clone, Default)]
+struct FoundPair {
+    /// None of one that a look at its slab has shown to be out of reach.
+    loads: Option<PairLoads>,
+    /// The derivatives, or room for them.
+    slopes: Option<Box<PairSlopes>>,
+    has_slopes: bool,
+}
+
+/// Whoever looks at the pairs of an instant.
 pub(super) struct Looking<'a> {
     pub model: &'a Model,
     pub motions: &'a Motions,
     pub remembered: &'a mut Remembered,
-    pub room: &'a mut PairScratch,
+    pub rooms: Rooms<'a, PairScratch>,
+    pub team: Option<Team>,
     pub wanted: Wanted,
     /// The body whose pairs alone are looked at, if it is one.
     pub only: Option<usize>,
@@ -69,8 +77,8 @@ struct Looked<'a> {
 impl Between {
     /// A pair as one of its bodies sees it, given its place among those within reach.
     pub fn pair<'a>(&'a self, end: PairEnd<'a>, place: usize) -> Option<PairAt<'a>> {
-        let slopes = self.sloped[place].map(|sloped| &self.slopes[sloped]);
-        Some(PairAt { end, loads: self.loads[place].as_ref()?, slopes })
+        let FoundPair { loads, slopes, has_slopes } = &self.pairs[place];
+        Some(PairAt { end, loads: loads.as_ref()?, slopes: slopes.as_deref().filter(|_| *has_slopes) })
     }
 
     /// What a spring of the model exerts.
@@ -169,33 +177,16 @@ impl Between {
         self.find_springs(looking)?;
         self.find_bonds(looking)?;
         self.find_motors(looking)?;
-        let Self { loads, slopes, sloped, .. } = self;
-        loads.clear();
-        sloped.clear();
-        let mut count = 0;
-        looking.for_each(|looked, room| {
-            let Some(looked) = looked else { return Ok(()) };
+        let count = looking.motions.reached().len();
+        if self.pairs.len() < count {
+            self.pairs.resize_with(count, FoundPair::default);
+        }
+        looking.find_reached(&mut self.pairs, |looked, found, room| {
+            (found.loads, found.has_slopes) = (None, false);
             if looked.is_out_of_reach() {
-                loads.push(None);
-                sloped.push(None);
                 return Ok(());
             }
-            match looked.wanted() {
-                Wanted::Loads => {
-                    loads.push(Some(looked.loads(room)?));
-                    sloped.push(None);
-                }
-                Wanted::Slopes => {
-                    if slopes.len() == count {
-                        slopes.push(PairSlopes::default());
-                    }
-                    looked.find_slopes(&mut slopes[count], room)?;
-                    loads.push(Some(slopes[count].loads));
-                    sloped.push(Some(count));
-                    count += 1;
-                }
-            }
-            Ok(())
+            found.find(&looked, looked.wanted(), room)
         })
     }
 
@@ -206,22 +197,30 @@ impl Between {
         if !looking.model.rules().all().iter().any(|rule| books || rule.laws.feel_velocities()) {
             return Ok(());
         }
-        let Self { loads, slopes, sloped, .. } = self;
-        let mut place = 0;
-        looking.for_each(|looked, room| {
-            let Some(looked) = looked else { return Ok(()) };
-            if let Some(sloped) = sloped[place].filter(|_| looked.feels_balance(books)) {
-                match wanted {
-                    Wanted::Loads => loads[place] = Some(looked.loads(room)?),
-                    Wanted::Slopes => {
-                        looked.find_slopes(&mut slopes[sloped], room)?;
-                        loads[place] = Some(slopes[sloped].loads);
-                    }
-                }
+        looking.find_reached(&mut self.pairs, |looked, found, room| {
+            if found.has_slopes && looked.feels_balance(books) {
+                found.find(&looked, wanted, room)?;
+                // Those of the instant stay asked for.
+                found.has_slopes = true;
             }
-            place += 1;
             Ok(())
         })
+    }
+}
+
+impl FoundPair {
+    /// Finds what a pair does, and the derivatives of that where they are wanted.
+    fn find(&mut self, looked: &Looked, wanted: Wanted, room: &mut PairScratch) -> Result<(), PairFault> {
+        self.loads = Some(match wanted {
+            Wanted::Loads => looked.loads(room)?,
+            Wanted::Slopes => {
+                let slopes = self.slopes.get_or_insert_default();
+                looked.find_slopes(slopes, room)?;
+                slopes.loads
+            }
+        });
+        self.has_slopes = wanted == Wanted::Slopes;
+        Ok(())
     }
 }
 
@@ -267,36 +266,58 @@ fn stretched(model: &Model, motions: &Motions, number: usize) -> Result<SpringLo
 
 /// Finds the slabs between the bodies of all listed pairs.
 pub(super) fn find_slabs(looking: &mut Looking, slabs: &mut PairGaps) -> Result<(), Inadmissible> {
-    slabs.begin(looking.motions.near());
-    looking.for_each(|looked, room| {
-        let gap =
-            |Looked { pair, parties, guess, .. }| with_sides(pair, parties, |sides| pair.form.gap(sides, guess, room));
-        slabs.push(looked.map(gap).transpose()?.unwrap_or(PairGap::FAR));
-        Ok(())
-    })
+    let slabs = slabs.begin(looking.motions.near());
+    looking.find_pairs(
+        slabs,
+        |number| number,
+        |looked, slab, room| {
+            let Some(Looked { pair, parties, guess, .. }) = looked else { return Ok(()) };
+            *slab = with_sides(pair, parties, |sides| pair.form.gap(sides, guess, room))?;
+            Ok(())
+        },
+    )
 }
 
 impl Looking<'_> {
-    /// Hands the listed pairs to `each`; none in the place of one that is out of reach, or not looked at.
-    fn for_each(
+    /// Finds what is asked of the pairs within reach, by their places among these.
+    fn find_reached<T: Send>(
         &mut self,
-        mut each: impl FnMut(Option<Looked>, &mut PairScratch) -> Result<(), PairFault>,
+        found: &mut [T],
+        find: impl Fn(Looked, &mut T, &mut PairScratch) -> Result<(), PairFault> + Sync,
     ) -> Result<(), Inadmissible> {
-        let Self { model, motions, remembered, room, wanted, only } = self;
+        let reached = self.motions.reached();
+        self.find_pairs(
+            &mut found[..reached.len()],
+            |place| reached[place],
+            |looked, found, room| looked.map_or(Ok(()), |looked| find(looked, found, room)),
+        )
+    }
+
+    /// Finds what is asked of listed pairs, given the number of each; none is looked at that is out of reach, or of
+    /// other bodies.
+    fn find_pairs<T: Send>(
+        &mut self,
+        found: &mut [T],
+        number: impl Fn(usize) -> usize + Sync,
+        find: impl Fn(Option<Looked>, &mut T, &mut PairScratch) -> Result<(), PairFault> + Sync,
+    ) -> Result<(), Inadmissible> {
+        let Self { model, motions, remembered, rooms, team, wanted, only } = self;
         let pairs = motions.near().pairs();
         remembered.find(pairs);
-        for (number, pair) in pairs.all().iter().enumerate() {
-            let parties = motions.parties(model, pair);
+        let remembered = &**remembered;
+        find_each(*team, found, rooms.lend(), |index, found, room| {
+            let number = number(index);
+            let pair = &pairs.all()[number];
             if (number + 1).is_multiple_of(PATIENCE) && model.is_given_up() {
                 return Err(Inadmissible { body: first(pair), quantity: Quantity::Interruption, value: f64::NAN });
             }
+            let parties = motions.parties(model, pair);
             let guess = remembered.guess(number, motions.time());
             let looked = Looked { pair, parties: &parties, guess: guess.as_ref(), asked: *wanted };
             let is_asked = only.is_none_or(|body| pair.parties.contains(&Party::Body(body)));
             let looked = motions.place(number).filter(|_| is_asked).map(|_| looked);
-            each(looked, room).map_err(|fault| outside(pair, fault))?;
-        }
-        Ok(())
+            find(looked, found, room).map_err(|fault| outside(pair, fault))
+        })
     }
 }
 

@@ -33,6 +33,7 @@ use crate::lattice::{Cell, HERE};
 use crate::load::{BondEnd, BondLoads, BondSlopes, SpringEnd, SpringLoads};
 use crate::model::Model;
 use crate::pair::PairScratch;
+use crate::team::{Rooms, Team};
 use crate::tensor::Vec3;
 use between::{Between, Looking, Wanted};
 pub(crate) use joined::{jet, second};
@@ -47,7 +48,8 @@ pub struct Instant<'a> {
     motions: &'a mut Motions,
     between: &'a mut Between,
     remembered: &'a mut Remembered,
-    room: &'a mut PairScratch,
+    rooms: Rooms<'a, PairScratch>,
+    team: Option<Team>,
     wanted: Wanted,
 }
 
@@ -66,6 +68,10 @@ pub(crate) struct Instants {
     slabs: PairGaps,
     remembered: Remembered,
     room: PairScratch,
+    /// More of that, for a team.
+    rooms: Vec<PairScratch>,
+    /// Who finds what stands between bodies.
+    pub team: Option<Team>,
 }
 
 impl Instants {
@@ -75,8 +81,9 @@ impl Instants {
     /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0, or where no plane separates two bodies.
     pub fn read<'a>(&'a mut self, model: &'a Model, time: f64, state: Numbers) -> Result<Instant<'a>, Inadmissible> {
         self.motions.read(model, time, state)?;
-        let Self { motions, between, remembered, room, .. } = self;
-        Instant { model, motions, between, remembered, room, wanted: Wanted::Loads }.found()
+        let Self { motions, between, remembered, room, rooms, team, .. } = self;
+        let rooms = Rooms { own: room, others: rooms };
+        Instant { model, motions, between, remembered, rooms, team: *team, wanted: Wanted::Loads }.found()
     }
 
     /// The same with the derivatives of what pairs do.
@@ -90,8 +97,9 @@ impl Instants {
         state: Numbers,
     ) -> Result<Instant<'a>, Inadmissible> {
         self.motions.read(model, time, state)?;
-        let Self { motions, between, remembered, room, .. } = self;
-        Instant { model, motions, between, remembered, room, wanted: Wanted::Slopes }.found()
+        let Self { motions, between, remembered, room, rooms, team, .. } = self;
+        let rooms = Rooms { own: room, others: rooms };
+        Instant { model, motions, between, remembered, rooms, team: *team, wanted: Wanted::Slopes }.found()
     }
 
     /// How the bodies move in a state, those without inertia taken to be still; not what is between them.
@@ -149,8 +157,9 @@ impl Instants {
         } else {
             balance(self.read(model, time, state)?)?;
         }
-        let Self { motions, slabs, remembered, room, .. } = self;
-        let mut looking = Looking { model, motions, remembered, room, wanted: Wanted::Loads, only };
+        let Self { motions, slabs, remembered, room, rooms, team, .. } = self;
+        let rooms = Rooms { own: room, others: rooms };
+        let mut looking = Looking { model, motions, remembered, rooms, team: *team, wanted: Wanted::Loads, only };
         between::find_slabs(&mut looking, slabs)?;
         Ok(slabs)
     }
@@ -192,8 +201,8 @@ impl Instant<'_> {
 
     /// What stands between bodies, and whoever looks for it.
     fn looking(&mut self) -> (&mut Between, Looking<'_>) {
-        let Self { model, motions, between, remembered, room, wanted } = self;
-        (between, Looking { model, motions, remembered, room, wanted: *wanted, only: None })
+        let Self { model, motions, between, remembered, rooms, team, wanted } = self;
+        (between, Looking { model, motions, remembered, rooms: rooms.lend(), team: *team, wanted: *wanted, only: None })
     }
 
     /// Finds again what pairs do that feel the velocities of bodies without inertia.

@@ -31,6 +31,8 @@ pub(crate) struct Motions {
     near: NeighbourList,
     /// By the number of a listed pair: its place among those whose bodies are within reach of each other.
     pub(super) within: Vec<Option<usize>>,
+    /// The numbers of these.
+    pub(super) reached: Vec<usize>,
 }
 
 /// The motion of one body.
@@ -155,6 +157,11 @@ impl Motions {
     /// The place of a listed pair among those within reach, if it is one of them.
     pub fn place(&self, number: usize) -> Option<usize> {
         self.within[number]
+    }
+
+    /// The numbers of the listed pairs within reach, ascending.
+    pub fn reached(&self) -> &[usize] {
+        &self.reached
     }
 
     /// Reads one body again from numbers of its own.

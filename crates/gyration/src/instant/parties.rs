@@ -99,18 +99,18 @@ impl Motions {
 
     /// Finds which listed pairs are within reach: the others do nothing.
     pub(super) fn find_reached(&mut self, model: &Model) {
-        let mut within = std::mem::take(&mut self.within);
+        let (mut within, mut reached) = (std::mem::take(&mut self.within), std::mem::take(&mut self.reached));
         within.clear();
-        let mut count = 0;
-        within.extend(self.near().pairs().all().iter().map(|pair| {
+        reached.clear();
+        within.extend(self.near().pairs().all().iter().enumerate().map(|(number, pair)| {
             let parties = self.parties(model, pair);
             let cutoff = pair.form.cutoff().filter(|_| parties.iter().all(PartyAt::is_rigid));
             cutoff.is_none_or(|cutoff| PartyAt::apart(&parties, pair.cell).norm() < cutoff).then(|| {
-                count += 1;
-                count - 1
+                reached.push(number);
+                reached.len() - 1
             })
         }));
-        self.within = within;
+        (self.within, self.reached) = (within, reached);
     }
 }
 

@@ -48,13 +48,15 @@ impl PairGaps {
         self.slabs.clear();
     }
 
-    /// Begins anew for a list of pairs.
-    pub(super) fn begin(&mut self, near: &NeighbourList) {
+    /// Begins anew for a list of pairs, none of which is near; their slabs, to be found.
+    pub(super) fn begin(&mut self, near: &NeighbourList) -> &mut [PairGap] {
         self.clear();
+        self.slabs.resize(near.pairs().all().len(), PairGap::FAR);
         self.is_whole = near.is_whole();
         if !self.pairs.are(near.pairs()) {
             self.pairs = near.pairs().clone();
         }
+        &mut self.slabs
     }
 
     /// Becomes that of a model without pairs.
@@ -64,11 +66,6 @@ impl PairGaps {
         if !self.pairs.all().is_empty() {
             self.pairs = Interactions::default();
         }
-    }
-
-    /// Notes the slab of the next pair.
-    pub(super) fn push(&mut self, slab: PairGap) {
-        self.slabs.push(slab);
     }
 }
 

@@ -45,7 +45,7 @@ impl Workspace {
     /// # Errors
     /// [`Inadmissible`] where the state is outside the model.
     pub fn hold_places(&mut self, model: &Model, held: &mut Held) -> Result<f64, Inadmissible> {
-        let Self { instants, scratch } = self;
+        let Self { instants, scratch, .. } = self;
         let mut equations = std::mem::take(&mut scratch.joints);
         let size = equations.hold_places(instants, model, held);
         scratch.joints = equations;
@@ -57,7 +57,7 @@ impl Workspace {
     /// # Errors
     /// [`Inadmissible`] where the state is outside the model.
     pub fn hold_velocities(&mut self, model: &Model, held: &mut Held) -> Result<f64, Inadmissible> {
-        let Self { instants, scratch } = self;
+        let Self { instants, scratch, .. } = self;
         let mut equations = std::mem::take(&mut scratch.joints);
         let size = equations.hold_velocities(instants, model, held);
         scratch.joints = equations;
@@ -69,7 +69,7 @@ impl Workspace {
     /// # Errors
     /// [`Inadmissible`] where the state is outside the model.
     pub fn joint_misfits(&mut self, model: &Model, state: &State) -> Result<Vec<JointMisfit>, Inadmissible> {
-        let Self { instants, scratch } = self;
+        let Self { instants, scratch, .. } = self;
         let motions = instants.motions(model, state.time, state.numbers())?;
         scratch.joints.read(model, |body| motions.at(model, body), false);
         let Some(graph) = model.joint_graph() else { return Ok(Vec::new()) };

@@ -26,7 +26,7 @@ impl Workspace {
     /// # Errors
     /// [`Inadmissible`] where the state is outside the model.
     pub fn dependent_joint(&mut self, model: &Model, state: &State) -> Result<Option<DependentJoint>, Inadmissible> {
-        let Self { instants, scratch } = self;
+        let Self { instants, scratch, .. } = self;
         let motions = instants.motions(model, state.time, state.numbers())?;
         let mut equations = std::mem::take(&mut scratch.joints);
         equations.read(model, |body| motions.at(model, body), false);

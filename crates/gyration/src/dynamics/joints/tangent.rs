@@ -22,7 +22,7 @@ impl Workspace {
     /// # Errors
     /// [`Inadmissible`] where the state is outside the model.
     pub fn joint_equations(&mut self, model: &Model, state: &State) -> Result<Vec<JointEquation>, Inadmissible> {
-        let Self { instants, scratch } = self;
+        let Self { instants, scratch, .. } = self;
         let motions = instants.motions(model, state.time, state.numbers())?;
         scratch.joints.read(model, |body| motions.at(model, body), false);
         let Some(graph) = model.joint_graph() else { return Ok(Vec::new()) };
