@@ -1,27 +1,11 @@
-//! A set of laws that act together, with the list of surface moments that they need; and contacts that obey it.
+//! A set of laws that act together, with the list of surface moments that they need.
 //!
 //! Laws share powers of the gap (damping and friction often have the same exponent, and the derivative of d^−6 is the
 //! power that d^−7 asks for), so the requests are merged once, when the set is made; all bodies that obey it share it.
 
-use super::negligible::Negligible;
 use super::potential::{self, PotentialTerm};
 use super::{Action, AreaMeasure, ContactLaw, OneSided, Term};
-use crate::load::{Interaction, Party};
 use crate::surface::{AxialMoments, MomentPlan, Moments, OrientedMoments, request};
-use std::sync::Arc;
-
-/// The laws between a body and a support.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Contact {
-    /// The index of the body.
-    pub body: usize,
-    /// The index of the support.
-    pub support: usize,
-    /// What acts between them.
-    pub law_set: Arc<LawSet>,
-    /// From where on that is negligible.
-    pub negligible: Negligible,
-}
 
 /// Laws that act together.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,24 +66,6 @@ impl ContactScratch {
             self.axial.resize(count, AxialMoments::default());
         }
         &mut self.axial[..count]
-    }
-}
-
-impl Contact {
-    /// A contact of a body with a support, however far it is.
-    pub fn new(body: usize, support: usize, law_set: impl Into<Arc<LawSet>>) -> Self {
-        Self { body, support, law_set: law_set.into(), negligible: Negligible::NOWHERE }
-    }
-
-    /// The same laws between a body and the support, renumbered.
-    pub(crate) fn of_parties(&self, [body, _]: [Party; 2]) -> Self {
-        Self { body: body.body().unwrap_or(self.body), ..self.clone() }
-    }
-}
-
-impl Interaction for Contact {
-    fn parties(&self) -> [Party; 2] {
-        [Party::Body(self.body), Party::Support(self.support)]
     }
 }
 
