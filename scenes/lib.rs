@@ -76,4 +76,8 @@ pub static SCENES: &[(&str, &str)] = &[
     ("pile", include_str!("pile.toml")),
     ("hopper", include_str!("hopper.toml")),
     ("cells", include_str!("cells.toml")),
+    ("column", include_str!("column.toml")),
+    ("drum-crowd", include_str!("drum-crowd.toml")),
+    ("soft-pile", include_str!("soft-pile.toml")),
+    ("chain-wave", include_str!("chain-wave.toml")),
 ];

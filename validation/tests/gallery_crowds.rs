@@ -8,9 +8,9 @@ use gyration_sim::{CrowdState, Outcome};
 use gyration_validation::{Case, Experiment, Run, largest, momenta};
 use std::f64::consts::PI;
 
-const GRAVITY: f64 = 9.81;
+pub const GRAVITY: f64 = 9.81;
 
-fn last(run: &Run, column: &str) -> f64 {
+pub fn last(run: &Run, column: &str) -> f64 {
     *run.column(column).last().unwrap()
 }
 
@@ -20,7 +20,7 @@ fn mass(experiment: &Experiment) -> f64 {
 }
 
 /// What the parties of the end of a run do to one another.
-fn exchanges_at_end(experiment: &Experiment, run: &Run) -> (Vec<Exchange>, CrowdState) {
+pub fn exchanges_at_end(experiment: &Experiment, run: &Run) -> (Vec<Exchange>, CrowdState) {
     let mut workspace = Workspace::default();
     let (instant, scratch) = workspace.read(&experiment.model, &run.end).unwrap();
     let mut found = Vec::new();
@@ -29,7 +29,7 @@ fn exchanges_at_end(experiment: &Experiment, run: &Run) -> (Vec<Exchange>, Crowd
 }
 
 /// Σ m Δv − M g t − Σ impulses, over the whole run \[N s\]: what bodies do to one another is no part of it.
-fn unaccounted(experiment: &Experiment, run: &Run) -> Vec3 {
+pub fn unaccounted(experiment: &Experiment, run: &Run) -> Vec3 {
     let bodies = 0..experiment.model.bodies.len();
     let impulses: Vec3 = bodies.map(|body| run.vectors_of(body, "impulse")[1..].iter().sum::<Vec3>()).sum();
     let moved = momenta(&experiment.model, &run.end).0 - momenta(&experiment.model, &experiment.start).0;

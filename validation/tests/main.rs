@@ -45,6 +45,7 @@ mod gallery_basset;
 mod gallery_bounce;
 mod gallery_contract;
 mod gallery_crowds;
+mod gallery_crowds_moving;
 mod gallery_dice;
 mod gallery_double_well;
 mod gallery_elastic;
