@@ -10,6 +10,7 @@
 //! Nothing here runs a scene; the runs stand beside the tests.
 
 mod chung_ooi;
+mod crowds;
 mod finding;
 mod granular;
 mod more;
@@ -77,7 +78,7 @@ pub struct Row {
 
 /// All rows, in the order of the table.
 pub fn rows() -> impl Iterator<Item = &'static Row> {
-    [chung_ooi::ROWS, granular::ROWS, more::ROWS].into_iter().flatten()
+    [chung_ooi::ROWS, granular::ROWS, more::ROWS, crowds::ROWS].into_iter().flatten()
 }
 
 #[cfg(test)]
