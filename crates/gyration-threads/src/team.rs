@@ -1,9 +1,14 @@
 //! Short jobs by number, on threads that are at hand: they look for jobs as long as the work lasts that has them.
+//!
+//! A thread of rayon that waits for a job begins others meanwhile, above the one that waits. To be at hand is a job
+//! that ends only with the work that it is for: above another work it would hold that up, and two works might wait for
+//! each other. So a thread that has work, or is at hand already, is not at hand for more.
 
 use crate::interruption::Interruption;
 use crate::own::on_own_threads;
 use rayon::Yield;
 use rayon::prelude::*;
+use std::cell::Cell;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -24,7 +29,7 @@ pub fn with_threads_at_hand<T: Send>(threads: NonZeroUsize, work: impl FnOnce() 
                 scope.spawn(|_| help_until(&is_done));
             }
             // Also where the work ends in a panic.
-            let _done = Raised(&is_done);
+            let (_done, _taken) = (Raised(&is_done), Taken::now());
             interruption.within(work)
         })
     })
@@ -39,9 +44,32 @@ impl Drop for Raised<'_> {
     }
 }
 
-/// Does what jobs there are until a flag is raised.
+thread_local! {
+    /// Whether this thread has work, or is at hand for some.
+    static IS_TAKEN: Cell<bool> = const { Cell::new(false) };
+}
+
+/// A thread that is taken as long as this lives; what it was before.
+struct Taken(bool);
+
+impl Taken {
+    fn now() -> Self {
+        Self(IS_TAKEN.replace(true))
+    }
+}
+
+impl Drop for Taken {
+    fn drop(&mut self) {
+        IS_TAKEN.set(self.0);
+    }
+}
+
+/// Does what jobs there are until a flag is raised, on a thread that is not taken.
 fn help_until(is_done: &AtomicBool) {
-    let mut looks = 0;
+    if IS_TAKEN.get() {
+        return;
+    }
+    let (mut looks, _taken) = (0, Taken::now());
     while !is_done.load(Ordering::Acquire) {
         match rayon::yield_now() {
             Some(Yield::Executed) => looks = 0,
@@ -99,6 +127,25 @@ mod tests {
         let flag = std::sync::Arc::new(AtomicBool::new(true));
         let due = || with_threads_at_hand(threads(2), Interruption::due);
         assert!(Interruption::default().raised_by(flag).within(due).is_some() && due().is_none());
+    }
+
+    /// Two works that share out jobs at once, in a pool that has fewer threads than they ask for.
+    #[test]
+    fn works_do_not_wait_for_one_another() {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().unwrap();
+        let count = AtomicUsize::new(0);
+        let job = |_| {
+            count.fetch_add(1, Ordering::Relaxed);
+            // Long enough for others to take some.
+            (0..1000).for_each(|_| std::hint::spin_loop());
+        };
+        let work = || (0..200).for_each(|_| each_on_threads(threads(4), 8, &job));
+        pool.scope(|scope| {
+            for _ in 0..2 {
+                scope.spawn(|_| (0..20).for_each(|_| with_threads_at_hand(threads(4), work)));
+            }
+        });
+        assert_eq!(count.into_inner(), 2 * 20 * 200 * 8);
     }
 
     #[test]
