@@ -1,7 +1,8 @@
 //! Commands that the pages of the book print: each is one that the program understands.
 //!
-//! Read are lines of code and spans between backticks that begin with `gyration`. What follows two blanks or `#` is an
-//! explanation, brackets stand around what may be left out, `|` between alternatives, capitals for names.
+//! Read are lines of code and spans between backticks that begin with `gyration`; a line of code that ends in `\` goes
+//! on in the next. What follows two blanks or `#` is an explanation, brackets stand around what may be left out, `|`
+//! between alternatives, capitals for names.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -21,7 +22,7 @@ fn pages() -> Vec<PathBuf> {
 /// The commands of a page.
 fn commands(text: &str) -> Vec<String> {
     let (mut commands, mut prose, mut in_code) = (Vec::new(), String::new(), false);
-    for line in text.lines() {
+    for line in whole_lines(text).lines() {
         let fence = line.trim_start().starts_with("```");
         in_code ^= fence;
         if in_code || line.starts_with("    ") {
@@ -34,6 +35,13 @@ fn commands(text: &str) -> Vec<String> {
     let spans = prose.split('`').skip(1).step_by(2);
     commands.extend(spans.filter(|span| span.starts_with("gyration ")).map(str::to_owned));
     commands
+}
+
+/// A text whose lines that go on are one.
+fn whole_lines(text: &str) -> String {
+    let mut parts = text.split("\\\n");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |whole, part| whole + part.trim_start())
 }
 
 /// A line without its explanation.
@@ -99,7 +107,7 @@ fn an_option_that_is_not_there_is_told() {
 
 #[test]
 fn commands_are_read_as_a_shell_reads_them() {
-    let text = "`gyration run\na.toml` `other`\n```\ngyration run dice --set a='[1, 0]'  # so\n```\n";
+    let text = "`gyration run\na.toml` `other`\n```\ngyration run dice \\\n    --set a='[1, 0]'  # so\n```\n";
     assert_eq!(commands(text), ["gyration run dice --set a='[1, 0]'", "gyration run a.toml"]);
     assert_eq!(words("gyration run dice --set a='[1, 0]'"), ["gyration", "run", "dice", "--set", "a=[1, 0]"]);
     assert_eq!(
