@@ -58,8 +58,8 @@ impl RunPlan {
 
     /// The threads among which an evaluation of many bodies is shared out, if there are several.
     pub(crate) fn team(&self) -> Option<Team> {
-        let threads = self.threads.filter(|threads| threads.get() > 1)?;
-        Some(Team { threads, each: each_on_threads })
+        let threads = self.threads?;
+        Team { threads, each: each_on_threads }.of(threads.get())
     }
 
     /// The plan of a run that has the machine to itself: with as many threads as its scene asks for, else with one for

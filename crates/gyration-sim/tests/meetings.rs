@@ -184,12 +184,46 @@ fn events_of_a_step_that_is_cut_stay_what_they_were() {
     };
     let (one, end) = events("time.sample=0.1", 1);
     assert!(one.len() > 100, "{}", one.len());
-    // Of an island of so many balls, several threads find pairs and loads.
     let runs = [("time.sample=0.01", 1), ("time.sample=0.001", 1), ("time.sample=0.0003", 1), ("time.sample=0.1", 3)];
     for (sample, threads) in runs {
         let (other, there) = events(sample, threads);
         assert_eq!((other.len(), there), (one.len(), end.clone()), "{sample}");
         assert_eq!(format!("{other:?}"), format!("{one:?}"), "{sample}");
+    }
+}
+
+/// A row of boxes that run into one another on a floor, one island: threads share out their pairs and loads.
+#[test]
+fn a_team_leaves_no_trace() {
+    for method in ["explicit", "implicit"] {
+        let found = |threads: usize| {
+            let mut text =
+                "time = { end = 0.06, sample = 0.02 }\n[[support]]\nname = \"floor\"\nplane = {}\n".to_owned();
+            for parties in ["support = \"floor\"", "between = [\"box\", \"box\"]\nreach = 0.05"] {
+                text += &format!(
+                    "[[contact]]\n{parties}\nrepulsion = {{ alpha = 1e3, nu = 6, d0 = 0.003 }}\n\
+                     damping = {{ beta = 1e3, nu = 3, d0 = 0.003 }}\nfriction = {{ beta = 1e3, nu = 3, d0 = 0.003 }}\n"
+                );
+            }
+            for k in 0..14 {
+                text += &format!(
+                    "[[body]]\nname = \"b{k}\"\ngroup = \"box\"\nshape = {{ box = {{ size = [0.05, 0.06, 0.07] }} }}\n\
+                     mass = 1\nposition = [{}, 0, 0.038]\nvelocity = [{}, 0, 0]\nangular_velocity = [0, 0, {}]\n",
+                    0.056 * f64::from(k),
+                    0.1 * f64::from(7 - k),
+                    0.3 * f64::from(k % 3),
+                );
+            }
+            let scene = parsed(&text, &[&format!("solver.method=\"{method}\""), "solver.rtol=1e-5"]);
+            let built = scene.built();
+            let plan = RunPlan { threads: NonZeroUsize::new(threads), ..RunPlan::from(built) };
+            run(&(built.model.clone(), built.state.clone(), plan))
+        };
+        let (alone, team) = (found(1), found(3));
+        assert_eq!(alone.outcome, Outcome::Completed);
+        println!("{method}: {:?}", alone.statistics);
+        assert!(alone.checkpoint == team.checkpoint && alone.statistics.accepted() > 10);
+        assert_eq!(format!("{:?}", alone.kept.rows), format!("{:?}", team.kept.rows));
     }
 }
 

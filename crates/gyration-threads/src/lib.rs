@@ -2,9 +2,9 @@
 //!
 //! [`share`] hands out jobs one by one and their results to the thread that asked, which looks around in between: at
 //! signals, at a disk that is full. [`in_order`] is the same for results that are wanted all together.
-//! [`each_on_threads`] is for jobs that take some microseconds, [`with_threads_at_hand`] for work that has many of them.
-//! [`on_own_threads`] is for rayon in a process that may have been forked. Which thread does what leaves no trace in any
-//! result. An [`Interruption`] says when to give up what takes long.
+//! [`each_on_threads`] is for jobs that take some microseconds, [`with_threads_at_hand`] for work that has many of
+//! them. [`on_own_threads`] is for rayon in a process that may have been forked. Which thread does what leaves no trace
+//! in any result. An [`Interruption`] says when to give up what takes long.
 
 mod count;
 mod interruption;

@@ -24,6 +24,13 @@ pub struct Team {
     pub each: EachOnThreads,
 }
 
+impl Team {
+    /// One of so many threads; none of fewer than two.
+    pub fn of(self, threads: usize) -> Option<Self> {
+        Some(Self { threads: NonZeroUsize::new(threads).filter(|threads| threads.get() > 1)?, ..self })
+    }
+}
+
 /// Scratch: one for whoever works alone, and as many more as there are pieces that may be worked on at once.
 #[derive(Debug)]
 pub(crate) struct Rooms<'a, R> {

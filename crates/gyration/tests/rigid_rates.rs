@@ -58,7 +58,7 @@ fn supports_that_are_neglected_would_not_change_the_digits_of_a_motion() {
     let (neglecting, lonely) =
         (whole.clone().neglecting_far_supports(&speeds), whole.clone().with_contacts(Vec::new()));
     let mut left_out = Vec::new();
-    for height in [3.0, 30.0, 300.0, 3e3, 3e4, 3e5] {
+    for height in [3.0, 30.0, 3e3, 3e5, 3e6, 3e7] {
         let mut state = state(&whole, &[0.4, -0.3, 0.0, 0.8, 0.6, 0.5, -0.4, 0.3, 0.2, -0.7]);
         for (body, slots) in whole.bodies.iter().zip(0..).map(|(body, index)| (body, whole.slots(index))) {
             if body.pin.is_none() {
@@ -79,7 +79,8 @@ fn supports_that_are_neglected_would_not_change_the_digits_of_a_motion() {
             let off = |range: std::ops::Range<usize>| range.map(|k| (all[k] - without[k]).powi(2)).sum::<f64>().sqrt();
             let radius = body.solid.radius().unwrap();
             let changed = off(slots.velocity()) + radius * off(slots.rate());
-            assert!(changed * radius <= 0.5 * f64::EPSILON * 4.0, "{changed:e} m/s² at {height} m");
+            // Over its height, at 2 m/s; the laws fall with powers of 4 to 9.5.
+            assert!(changed * height <= 8.5 * 0.5 * f64::EPSILON * 4.0, "{changed:e} m/s² at {height} m");
         }
         left_out.push(count);
     }
@@ -91,7 +92,7 @@ fn supports_that_are_neglected_would_not_change_the_digits_of_a_motion() {
     (0..whole.bodies.len()).for_each(|index| {
         let slots = whole.slots(index);
         if whole.bodies[index].pin.is_none() {
-            state.bodies[slots.position()][2] = 3e5;
+            state.bodies[slots.position()][2] = 3e7;
         }
     });
     assert_eq!(evaluate(&slow, 0.0, &state.bodies), evaluate(&whole, 0.0, &state.bodies));

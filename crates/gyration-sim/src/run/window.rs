@@ -173,19 +173,22 @@ impl Simulation {
             return shared.with_scratch(behind, |island| island.reach_with(team, until, most, plan));
         }
         let interruption = Interruption::in_force();
-        let (mut large, mut behind): (Vec<&mut Island>, Vec<&mut Island>) =
+        let (mut large, mut small): (Vec<&mut Island>, Vec<&mut Island>) =
             behind.partition(|island| island.is_worth_a_team());
-        if large.len() < threads.get() {
-            // They would keep as many threads waiting as there are more.
-            large.into_iter().for_each(|island| island.reach_with(team, until, most, plan));
-        } else {
-            behind.append(&mut large);
+        if large.len() >= threads.get() {
+            small.append(&mut large);
         }
-        let piece = behind.len().div_ceil(PIECES * threads.get()).max(1);
-        in_order(behind.chunks_mut(piece), threads, |islands| {
-            let islands = islands.iter_mut().map(|island| &mut **island);
-            interruption.within(|| shared.with_scratch(islands, |island| island.reach(until, most, plan)));
-        });
+        if !small.is_empty() {
+            let piece = small.len().div_ceil(PIECES * threads.get());
+            in_order(small.chunks_mut(piece), threads, |islands| {
+                let islands = islands.iter_mut().map(|island| &mut **island);
+                interruption.within(|| shared.with_scratch(islands, |island| island.reach(until, most, plan)));
+            });
+        }
+        // Those that are left are fewer than threads, which they have in equal parts.
+        let Some(side_by_side) = NonZeroUsize::new(large.len()) else { return };
+        let team = team.and_then(|team| team.of(threads.get() / side_by_side.get()));
+        in_order(large, side_by_side, |island| interruption.within(|| island.reach_with(team, until, most, plan)));
     }
 
     /// Carries out the earliest change of the islands, if it comes before a time; whether there was one. Where none has

@@ -1,17 +1,20 @@
 //! The model in which rigid bodies do not feel supports that are too far to change the digits of their motion.
 //!
-//! A force f that acts over the way r, the radius of the body, at its speed v changes v by less than its rounding if
+//! The work W that a force does changes the speed v of the fastest point of a body by less than its rounding if
 //!
-//!   |f| (1/m + r² |I⁻¹|) r ≤ ½ ε v²
+//!   W (1/m + r² |I⁻¹|) ≤ ½ ε v²
 //!
-//! A body that flies L loses ½ ε L/r of its speed by what is left out: 1e-13 after a thousand radii.
+//! This is asked of all that a support may do from where it is left out to infinity, at the speed scale v of the body:
+//! the energy that rows book of it is below rounding too. Along a support, for a way L, a body loses ½ ε L/D of its
+//! speed for each power of the gap by which W falls; one at a quarter of its scale sixteen times as much; slower ones,
+//! and those that are much faster, feel all supports.
 
 use super::Model;
 use crate::body::{Body, BodyKind};
 use crate::contact::{Contact, Negligible};
 
-/// A body so many times as fast as its scale feels all supports.
-const FASTEST: f64 = 64.0;
+/// A body that is slower or faster than so many times its scale feels all supports.
+const SPEEDS: [f64; 2] = [0.25, 64.0];
 
 impl Model {
     /// The model whose rates leave such supports out, given the speed scale of each body [m/s]. Rows, energies and gaps
@@ -38,6 +41,6 @@ fn negligible(body: &Body, contact: &Contact, speed: f64) -> Negligible {
     };
     let arm = surface.radius() + body.pin.as_ref().map_or(0.0, |pin| pin.point.norm());
     let mobility = 1.0 / body.solid.mass.mass + arm * arm * inertia.inverse.norm();
-    let force = 0.5 * f64::EPSILON * speed * speed / (mobility * arm);
-    Negligible::of(&contact.law_set, surface, force, FASTEST * speed)
+    let energy = 0.5 * f64::EPSILON * speed * speed / mobility;
+    Negligible::of(&contact.law_set, surface, energy, SPEEDS.map(|part| part * speed))
 }
