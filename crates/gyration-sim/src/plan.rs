@@ -56,10 +56,11 @@ impl RunPlan {
         first.unwrap_or_else(|| (near + 1..).find(|k| self.sample_time(*k) > time).unwrap_or(u64::MAX))
     }
 
-    /// The threads among which an evaluation of many bodies is shared out, if there are several.
+    /// The threads among which an evaluation of many bodies is shared out, if there are several: no more than there are
+    /// processors, since they look for work all the time.
     pub(crate) fn team(&self) -> Option<Team> {
-        let threads = self.threads?;
-        Team { threads, each: each_on_threads }.of(threads.get())
+        let threads = self.threads?.min(Threads::asked(None).ok()?);
+        Team::new(threads.get(), each_on_threads)
     }
 
     /// The plan of a run that has the machine to itself: with as many threads as its scene asks for, else with one for

@@ -26,8 +26,9 @@ pub struct Team {
 
 impl Team {
     /// One of so many threads; none of fewer than two.
-    pub fn of(self, threads: usize) -> Option<Self> {
-        Some(Self { threads: NonZeroUsize::new(threads).filter(|threads| threads.get() > 1)?, ..self })
+    pub fn new(threads: usize, each: EachOnThreads) -> Option<Self> {
+        let threads = NonZeroUsize::new(threads).filter(|threads| threads.get() > 1)?;
+        Some(Self { threads, each })
     }
 }
 

@@ -32,7 +32,6 @@ use crate::plan::RunPlan;
 use crate::run_state::{IslandMemory, IslandState};
 pub(crate) use effort::Effort;
 use gyration::Team;
-use gyration::body::Body;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{Integrator, Memory, MemoryError, StepReport};
@@ -44,10 +43,9 @@ use restart_point::RestartPoint;
 use std::ops::Range;
 use step_end::StepEnd;
 
-/// An evaluation of bodies that meet others or supports, as many as that, takes some 100 µs, ten times as long as it
-/// takes to wake a thread (`bench/2026-11-28-crowds.md`); that of a rigid ball, which has closed forms, a tenth.
+/// So many bodies that meet others or supports are 1.2 times as fast on two threads as on one, more gain more
+/// (`bench/2026-11-28-crowds.md`). Rigid balls, which have closed forms, do not count.
 const WORTH_A_TEAM: usize = 12;
-const BALLS_FOR_ONE: usize = 10;
 
 /// What islands of a run begin from.
 #[derive(Clone, Copy)]
@@ -259,10 +257,8 @@ impl Island {
     /// Whether threads that share out its pairs and bodies among them have enough to do.
     pub fn is_worth_a_team(&self) -> bool {
         let model = self.model();
-        let is_ball = |body: &Body| body.solid.is_ball() && body.affine().is_none();
-        let meeting = (0..model.bodies.len()).filter(|body| model.has_contact(*body));
-        let costs = meeting.map(|body| if is_ball(&model.bodies[body]) { 1 } else { BALLS_FOR_ONE });
-        costs.sum::<usize>() >= BALLS_FOR_ONE * WORTH_A_TEAM
+        let costs = |body: &usize| !model.bodies[*body].is_rigid_ball() && model.has_contact(*body);
+        (0..model.bodies.len()).filter(costs).nth(WORTH_A_TEAM - 1).is_some()
     }
 
     /// The same as [`Island::reach`], with a team if it is worth one.

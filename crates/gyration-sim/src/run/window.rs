@@ -5,7 +5,7 @@ use super::{Simulation, is_asked};
 use crate::island::{Effort, Island, Setting};
 use crate::outcome::{Reason, Stop};
 use crate::ports::{Monitor, Progress, RunError, Sink};
-use gyration::Quantity;
+use gyration::{Quantity, Team};
 use gyration_threads::{Interruption, in_order};
 use std::num::NonZeroUsize;
 
@@ -187,7 +187,7 @@ impl Simulation {
         }
         // Those that are left are fewer than threads, which they have in equal parts.
         let Some(side_by_side) = NonZeroUsize::new(large.len()) else { return };
-        let team = team.and_then(|team| team.of(threads.get() / side_by_side.get()));
+        let team = team.and_then(|team| Team::new(team.threads.get() / side_by_side.get(), team.each));
         in_order(large, side_by_side, |island| interruption.within(|| island.reach_with(team, until, most, plan)));
     }
 

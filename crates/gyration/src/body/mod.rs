@@ -216,6 +216,11 @@ impl Body {
             && *own == other.own
     }
 
+    /// Whether it is one ball about its centre of mass that does not deform.
+    pub fn is_rigid_ball(&self) -> bool {
+        matches!(self.kind, BodyKind::Rigid(_)) && self.solid.is_ball()
+    }
+
     /// Whether a smallest gap [m] to a support is above zero by more than its own rounding.
     pub fn is_apart(&self, gap: f64, field: &GapField) -> bool {
         gap.is_finite() && gap > self.least_gap(field)

@@ -25,6 +25,8 @@ struct Search<'a, 'b> {
     smallest: f64,
     /// How many bodies were looked at.
     looked: usize,
+    /// What a slab is wider than: the distance of the centres less so many radii of both.
+    widest: f64,
 }
 
 /// The smallest gap of a body to anything that it has a contact with [m]: its distance to a support, the width of the
@@ -44,7 +46,8 @@ pub fn gap_at(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible> {
 fn smallest_gap(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible> {
     let (near, rules) = (at.near(), at.model.rules());
     let smallest = at.pairs().map(|pair| pair.loads.gap).fold(f64::INFINITY, f64::min);
-    let mut search = Search { at, scratch, smallest, looked: 0 };
+    let widest = if near.are_balls() { 1.0 } else { WIDEST };
+    let mut search = Search { at, scratch, smallest, looked: 0, widest };
     let is_known = |end: &PairEnd| at.pair(end).is_some();
     let far = || near.pairs().of(at.index).filter(|end| !is_known(end)).map(|end| end.interaction);
     // The nearest of them leaves few of the others.
@@ -69,9 +72,8 @@ fn smallest_gap(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible>
         search.ask(*other)?;
     }
     let radii = near.largest_radius() + at.body.solid.radius().unwrap_or(0.0);
-    let widest = if near.are_balls() { 1.0 } else { WIDEST };
     for (distance, other) in near.outward(&at.motion.placement.position) {
-        if distance - widest * radii > search.smallest {
+        if distance - search.widest * radii > search.smallest {
             break;
         }
         search.ask(other)?;
@@ -95,8 +97,7 @@ impl Search<'_, '_> {
         }
         let beside = at.beside(other);
         let radii = [at.body, beside.body].map(|body| body.solid.radius().unwrap_or(0.0));
-        let widest = if at.near().are_balls() { 1.0 } else { WIDEST };
-        if at.from(&beside).norm() - widest * (radii[0] + radii[1]) >= self.smallest {
+        if at.from(&beside).norm() - self.widest * (radii[0] + radii[1]) >= self.smallest {
             return Ok(());
         }
         let rules = at.model.rules();

@@ -308,7 +308,7 @@ impl Looking<'_> {
         find_each(*team, found, rooms.lend(), |index, found, room| {
             let number = number(index);
             let pair = &pairs.all()[number];
-            if (number + 1).is_multiple_of(PATIENCE) && model.is_given_up() {
+            if (index + 1).is_multiple_of(PATIENCE) && model.is_given_up() {
                 return Err(Inadmissible { body: first(pair), quantity: Quantity::Interruption, value: f64::NAN });
             }
             let parties = motions.parties(model, pair);

@@ -153,8 +153,7 @@ impl NeighbourList {
             let meeting: Vec<(usize, f64)> =
                 meeting.filter_map(|body| Some((body, bodies[body].solid.radius()?))).collect();
             let skin = SKIN * meeting.iter().map(|(_, radius)| radius).sum::<f64>() / meeting.len() as f64;
-            let is_ball = |body: usize| bodies[body].solid.is_ball() && bodies[body].affine().is_none();
-            let sizes = Sizes::of(&meeting, meeting.iter().all(|(body, _)| is_ball(*body)));
+            let sizes = Sizes::of(&meeting, meeting.iter().all(|(body, _)| bodies[*body].is_rigid_ball()));
             *self = Self { rules: rules.clone(), is_whole, skin, sizes, ..Self::default() };
         }
         self.make((bodies, with_supports), place);
