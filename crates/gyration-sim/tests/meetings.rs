@@ -5,6 +5,9 @@
 
 use crate::islands::{Seen, motion_in, parsed};
 use crate::runs::StopAfter;
+use gyration::Party;
+use gyration::dynamics::Workspace;
+use gyration::instant::PairGaps;
 use gyration::load::{Spring, SpringLaw};
 use gyration::model::Model;
 use gyration::state::State;
@@ -277,6 +280,24 @@ fn balls_that_pass_one_another_never_know_of_each_other() {
     let alone = run(&(apart.clone(), State { works: vec![0.0; apart.works().len()], ..start }, plan));
     assert_eq!(found.state.bodies, alone.state.bodies);
     assert_eq!(found.statistics, alone.statistics);
+}
+
+#[test]
+fn the_slabs_of_one_body_are_those_among_all() {
+    let starts: Vec<_> = (0..6).map(|k| ([0.13 * f64::from(k), 0.02 * f64::from(k % 2), 0.0], [0.0; 3])).collect();
+    let (model, start, _) = balls(&starts, &[]);
+    let gaps = |found: &PairGaps, body: usize| found.of(body).map(|slab| slab.gap).collect::<Vec<_>>();
+    let mut workspace = Workspace::default();
+    for body in 0..starts.len() {
+        let all = gaps(workspace.pair_gaps(&model, 0.0, start.numbers()).unwrap(), body);
+        let own = workspace.pair_gaps_of((&model, body), 0.0, start.numbers()).unwrap();
+        assert_eq!(gaps(own, body), all);
+        assert!(all.iter().any(|gap| gap.is_finite()), "one is within reach: {all:?}");
+        // Nobody looks at two others.
+        let others = own.iter().filter(|(pair, _)| !pair.parties.contains(&Party::Body(body)));
+        let others: Vec<f64> = others.map(|(_, slab)| slab.gap).collect();
+        assert!(!others.is_empty() && others.iter().all(|gap| gap.is_infinite()), "{others:?}");
+    }
 }
 
 /// A row that moves as a whole, each ball at the end of the reach of the next: to the last digit, and within the part

@@ -180,7 +180,7 @@ impl Instants {
         Ok(self.remembered.keep(time, &mut self.slabs))
     }
 
-    /// The slabs that were found last, of the pairs that were looked at; none once they are remembered.
+    /// The slabs that were found last, infinite of pairs that nobody has looked at; none once they are remembered.
     pub fn found(&self) -> &PairGaps {
         &self.slabs
     }
