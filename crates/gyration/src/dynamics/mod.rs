@@ -154,8 +154,8 @@ impl Workspace {
         instants.slabs_of((model, body), time, state, |mut instant| inertialess::solve(&mut instant, scratch))
     }
 
-    /// The slabs that were found last, infinite of pairs that nobody has looked at since something failed; none once they
-    /// are remembered.
+    /// The slabs that were found last, infinite of pairs that nobody has looked at since something failed; none once
+    /// they are remembered.
     pub fn found_gaps(&self) -> &PairGaps {
         self.instants.found()
     }
