@@ -67,6 +67,7 @@ pub static SCENES: &[(&str, &str)] = &[
     ("adhesive-cluster", include_str!("adhesive-cluster.toml")),
     ("diatomic", include_str!("diatomic.toml")),
     ("affine-chain", include_str!("affine-chain.toml")),
+    ("micromorphic", include_str!("micromorphic.toml")),
     ("kagome", include_str!("kagome.toml")),
     ("contact-chain", include_str!("contact-chain.toml")),
     ("wave-gap", include_str!("wave-gap.toml")),

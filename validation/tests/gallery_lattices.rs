@@ -1,7 +1,8 @@
 //! The gallery's lattices: what the head of each scene says, and what `gyration bands` tells of it.
 
 use gyration_scene::Scene;
-use gyration_sim::survey::{BandOptions, BandSurvey, ComplexBandOptions, ComplexBandSurvey};
+use gyration_sim::modes::bands::ContinuumModel;
+use gyration_sim::survey::{BandOptions, BandSurvey, ComplexBandOptions, ComplexBandSurvey, ContinuumSurvey};
 use gyration_validation::{Case, Experiment, Run, largest};
 use nalgebra::Complex;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -69,6 +70,36 @@ fn branches_of_cubes_that_move_and_stretch_avoid_each_other() {
     let (least, most) = shares.iter().fold((1.0, 0.0), |(least, most), share| (share.min(least), share.max(most)));
     println!("the motion has {least:.3} to {most:.3} of the kinetic energy");
     assert!(least < 0.15 && most > 0.85, "{least} {most}");
+}
+
+#[test]
+fn a_short_packet_falls_behind_a_long_one() {
+    let case = Case { row: None, name: "gallery: micromorphic", source: "∂ω/∂k" };
+    let text = scene("micromorphic");
+    let speed_of_all = ContinuumSurvey::of(&text, ContinuumModel::Cauchy, Some("0.01,0,0"), 2).unwrap();
+    let cauchy = speed_of_all.map.continuum[0][5] / (TAU * 0.01 / 0.2);
+    for (kappa, quantity, off) in
+        [(0.0625, "speed of the long packet [m/s]", 0.02), (0.25, "speed of the short packet [m/s]", 0.3)]
+    {
+        let expected = bands(&text, &format!("{kappa},0,0"), OPTIONS).velocity[0][5].unwrap()[0];
+        let wave = format!(
+            "lattice.wave={{ kappa = [{kappa}, 0, 0], branch = 5, amplitude = 0.004, at = [8, 0, 0], width = 5 }}"
+        );
+        let run = run("micromorphic", &[&wave]);
+        let speeds: Vec<Vec<f64>> = (0..48).map(|n| run.column(&format!("cube-{n}.vx"))).collect();
+        let place = |k: usize| {
+            let weights = || speeds.iter().map(|of_cube| of_cube[k] * of_cube[k]);
+            weights().enumerate().map(|(n, weight)| 0.2 * n as f64 * weight).sum::<f64>() / weights().sum::<f64>()
+        };
+        // The slope of the straight line nearest to the places.
+        let middle = 0.5 * run.times[run.times.len() - 1];
+        let moment =
+            |of: &dyn Fn(usize) -> f64| (0..run.times.len()).map(|k| (run.times[k] - middle) * of(k)).sum::<f64>();
+        let measured = moment(&place) / moment(&|k| run.times[k]);
+        // The second derivative of ω by k spreads a packet, the third moves it.
+        case.check(quantity, expected, measured, 0.02);
+        assert!((cauchy / expected - 1.0 - off).abs() < 0.02, "{cauchy} {expected}");
+    }
 }
 
 #[test]

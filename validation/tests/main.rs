@@ -14,6 +14,7 @@ mod case_bounded_friction;
 mod case_bounded_pairs;
 mod case_changing_flow;
 mod case_complex_bands;
+mod case_continuum;
 mod case_contracting_box;
 mod case_contraction_modes;
 mod case_deforming_inclusion;

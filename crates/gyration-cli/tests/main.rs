@@ -8,6 +8,7 @@ mod bands;
 mod calibrate;
 mod commands;
 mod common;
+mod continuum;
 mod drive_plots;
 mod export;
 mod full_disk;

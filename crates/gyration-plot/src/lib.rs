@@ -32,7 +32,7 @@ mod strip;
 pub mod study;
 mod thin;
 
-pub use bands::bands;
+pub use bands::{bands, continuum};
 pub use draw::{Film, FilmFrame, Format};
 pub use error::PlotError;
 pub use figure::Figure;

@@ -35,6 +35,7 @@ const PARTS: [(&str, &[&str]); 7] = [
             "docs/resistance.md",
             "docs/modes.md",
             "docs/bands.md",
+            "docs/continuum.md",
             "docs/known-answers.md",
             "docs/published.md",
         ],

@@ -5,6 +5,7 @@ mod bands;
 mod calibrate;
 mod check;
 mod completions;
+mod continuum;
 mod export;
 mod import;
 mod man;
@@ -38,6 +39,7 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::Check(arguments) => check::execute(&arguments),
         Command::Modes(arguments) => modes::execute(&arguments),
         Command::Bands(arguments) => bands::execute(&arguments),
+        Command::Continuum(arguments) => continuum::execute(&arguments),
         Command::Resistance(arguments) => resistance::execute(&arguments),
         Command::Scenes(arguments) => scenes::execute(&arguments),
         Command::New(arguments) => new::execute(&arguments),

@@ -13,7 +13,7 @@ use super::weightless::Inertial;
 use gyration::Inadmissible;
 use gyration::body::{Body, Slots};
 use gyration::lattice::HERE;
-use gyration::tensor::Mat3;
+use gyration::tensor::{Mat3, Vec3};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 use std::sync::Arc;
@@ -322,12 +322,7 @@ impl SystemCoordinates {
     }
 
     /// z of a motion of each body, δp₀ and δP.
-    #[cfg(test)]
-    pub fn moved(
-        &self,
-        frozen: &FrozenSystem,
-        motion: impl Fn(usize) -> (gyration::tensor::Vec3, Mat3),
-    ) -> DVector<f64> {
+    pub fn moved(&self, frozen: &FrozenSystem, motion: impl Fn(usize) -> (Vec3, Mat3)) -> DVector<f64> {
         let mut whole = DVector::zeros(self.count());
         for (index, (body, at)) in frozen.bodies().iter().zip(&self.bodies).enumerate() {
             let (translation, change) = motion(index);

@@ -149,8 +149,8 @@ impl BandSurvey {
             vertices: points().filter(|(_, point)| point.is_vertex).map(|(row, _)| row).collect(),
             begins: points().filter(|(_, point)| point.begins).map(|(row, _)| row).collect(),
             sound: waves.sound(&cell.periodic).map_err(told)?,
-            rest: rest(&waves, &names),
-            warnings: warnings(&waves, &rows),
+            rest: cell_rest(&waves, &names),
+            warnings: warnings_of(&waves, &rows),
             zone,
         })
     }
@@ -182,7 +182,8 @@ pub(super) fn beginning(cell: &UnitCell) -> Result<StrainedCell, NoBands> {
     cell.load.map_or(Ok(written.clone()), |load| written.at_rest(load))
 }
 
-fn rest(waves: &LatticeWaves, names: &[&str]) -> CellRestSurvey {
+/// Where a cell is looked at.
+pub(super) fn cell_rest(waves: &LatticeWaves, names: &[&str]) -> CellRestSurvey {
     let rest = waves.rest();
     let vectors = |vectors: &[Vec3]| vectors.iter().map(|vector| (*vector).into()).collect();
     let rows = |matrix: &Mat3| [0, 1, 2].map(|row| [0, 1, 2].map(|column| matrix[(row, column)]));
@@ -197,7 +198,7 @@ fn rest(waves: &LatticeWaves, names: &[&str]) -> CellRestSurvey {
 }
 
 /// A cell that does not rest, waves that grow, contractions that go on.
-fn warnings(waves: &LatticeWaves, rows: &[BandRow]) -> Vec<String> {
+pub(super) fn warnings_of(waves: &LatticeWaves, rows: &[BandRow]) -> Vec<String> {
     let mut warnings = Vec::new();
     if let Some(left) = waves.rest().unrest {
         warnings.push(format!(

@@ -103,6 +103,11 @@ impl BlochSystem {
         self.summed(|cell| C64::new(-cell.place.dot(along) * cell.place.dot(along), 0.0))
     }
 
+    /// The cells that act on the one: which, R [m] and K_R [1/s²].
+    pub fn stiffnesses(&self) -> impl Iterator<Item = (Cell, Vec3, &DMatrix<f64>)> {
+        self.cells.iter().map(|cell| (cell.cell, cell.place, &cell.stiffness))
+    }
+
     /// ζᴴ (∂K/∂k) ξ, a component each axis of space [m/s²].
     pub fn stiffness_slope(&self, kappa: &[f64; 3], left: &DVector<C64>, right: &DVector<C64>) -> Vector3<C64> {
         let mut slope = Vector3::zeros();

@@ -5,10 +5,11 @@
 //! `path` reads wave vectors, `bloch` has the matrices of the small motions of one cell and of those at a wave vector,
 //! `waves` their roots, shapes and group velocities, `evanescent` all wave vectors of a frequency, `sound` the speeds
 //! of long waves, `stability` the wave that grows first, `strained` deforms the cell. The cell is linearized about its
-//! rest, or about the state as it is written.
+//! rest, or about the state as it is written. `continuum` expands the matrices about k = 0.
 
 mod bloch;
 mod cell_rest;
+mod continuum;
 mod eigenspaces;
 mod evanescent;
 mod mesh;
@@ -20,6 +21,7 @@ mod stability;
 mod strained;
 mod waves;
 
+pub use continuum::{Continuum, ContinuumModel, NoContinuum, Reach, Tensor, frequency_error};
 pub use mesh::{BandGap, StateDensity, Zone};
 pub use path::{BandPath, MOST_POINTS, PathError, PathPoint};
 pub use sound::Sound;
@@ -33,6 +35,7 @@ use super::system::SystemCoordinates;
 use super::{NoRest, Rest, RestContraction, equilibrium, system_rest};
 pub(crate) use bloch::unit_phase;
 use bloch::{BlochSystem, C64};
+use eigenspaces::hermitian_eigen;
 use gyration::Inadmissible;
 use gyration::lattice::Lattice;
 use gyration::model::Model;
@@ -41,7 +44,7 @@ use gyration::tensor::{Mat3, Vec3};
 use gyration_threads::Interruption;
 use nalgebra::DVector;
 use serde::Serialize;
-use waves::Waves;
+use waves::{NEUTRAL, Waves, hermitian};
 
 /// A cell of a lattice about a state in which it rests, or is written.
 #[derive(Debug)]
@@ -200,6 +203,22 @@ impl LatticeWaves {
     pub fn branches(&self, kappa: [f64; 3]) -> Result<Vec<Branch>, NoBands> {
         let point = PathPoint { kappa, along: [0.0; 3], label: None, is_vertex: false, begins: false };
         Ok(self.row(&point, true)?.branches)
+    }
+
+    /// The frequencies at κ where nothing resists or drives, ascending [rad/s]: 0 of what grows.
+    ///
+    /// # Errors
+    /// [`NoBands`].
+    pub(super) fn frequencies(&self, kappa: &[f64; 3]) -> Result<Vec<f64>, NoBands> {
+        if Interruption::due().is_some() {
+            return Err(NoBands::Interrupted);
+        }
+        let eigen = hermitian_eigen(hermitian(self.system.wave(kappa).stiffness)).ok_or(NoBands::Roots(*kappa))?;
+        let least = NEUTRAL * self.system.stiffest;
+        let frequency = |square: &f64| if *square <= least { 0.0 } else { libm::sqrt(*square) };
+        let mut frequencies: Vec<f64> = eigen.eigenvalues.iter().map(frequency).collect();
+        frequencies.sort_by(f64::total_cmp);
+        Ok(frequencies)
     }
 
     /// The shapes of a wave.
