@@ -5,7 +5,7 @@
 
 use crate::error::RecordError;
 use crate::names::{is_column, is_name, is_word};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// The dimensions along which arrays grow: samples, events, entries of a ragged group, and where those of a sample
 /// begin, one more than there are samples.
@@ -161,7 +161,7 @@ impl Layout {
 
     /// Where each CSV column is found, in the order of the CSV: its name, its array and its place in a row of it.
     pub(crate) fn columns(&self) -> Result<Vec<(&str, &str, usize)>, RecordError> {
-        let mut places = BTreeMap::new();
+        let mut places = HashMap::with_capacity(self.csv_order.len());
         for array in &self.arrays {
             if !array.columns.is_empty() && array.columns.len() != array.row_len() {
                 let (name, len) = (&array.name, array.row_len());
@@ -183,7 +183,7 @@ impl Layout {
             })?;
             columns.push((column.as_str(), array, index));
         }
-        match places.keys().next() {
+        match places.keys().min() {
             Some(column) => Err(RecordError::layout(format!("csv_order leaves out the column `{column}`"))),
             None => Ok(columns),
         }

@@ -57,6 +57,13 @@ pub struct Job<'a> {
     provenance: Provenance,
 }
 
+/// A run that has a start within the model: its first row is known.
+pub struct BegunRun<'a> {
+    job: Job<'a>,
+    simulation: Simulation,
+    first: MemorySink,
+}
+
 /// The end of a recorded run.
 #[derive(Debug)]
 pub enum RecordingEnd {
@@ -118,14 +125,18 @@ impl<'a> Job<'a> {
     /// # Errors
     /// [`RunError`].
     pub fn record(&self, path: &Path, watch: &mut dyn Monitor) -> Result<RecordingEnd, RunError> {
-        self.interruption().within(|| {
-            let mut simulation = Simulation::new(self.model, self.start, self.plan)?;
-            let writer = Writer::create(path, &self.layout(), self.all_attributes())?;
-            let mut sink = RecordingSink::new(self.model.clone(), writer, RowHash::default());
-            simulation.begin(&mut sink)?;
-            sink.writer.flush(&simulation.checkpoint())?;
-            self.finish(path, simulation, sink, watch)
-        })
+        self.interruption().within(|| self.begun()?.record_in_time(path, watch))
+    }
+
+    /// The run at its start, of which nothing is on disk yet.
+    ///
+    /// # Errors
+    /// [`RunError`] if the start is outside the model.
+    pub fn begun(&self) -> Result<BegunRun<'a>, RunError> {
+        let mut simulation = Simulation::new(self.model, self.start, self.plan)?;
+        let mut first = MemorySink::default();
+        simulation.begin(&mut first)?;
+        Ok(BegunRun { job: self.clone(), simulation, first })
     }
 
     /// Begins a new recording of a run of this model that somebody steps by hand.
@@ -271,6 +282,25 @@ impl<'a> Job<'a> {
     }
 }
 
+impl BegunRun<'_> {
+    /// Goes on into a new recording.
+    ///
+    /// # Errors
+    /// [`RunError`].
+    pub fn record(self, path: &Path, watch: &mut dyn Monitor) -> Result<RecordingEnd, RunError> {
+        self.job.interruption().within(|| self.record_in_time(path, watch))
+    }
+
+    fn record_in_time(self, path: &Path, watch: &mut dyn Monitor) -> Result<RecordingEnd, RunError> {
+        let Self { job, simulation, first } = self;
+        let writer = Writer::create(path, &job.layout(), job.all_attributes())?;
+        let mut sink = RecordingSink::new(job.model.clone(), writer, RowHash::default());
+        first.hand_on(&mut sink)?;
+        sink.writer.flush(&simulation.checkpoint())?;
+        job.finish(path, simulation, sink, watch)
+    }
+}
+
 /// The resolved scene without what may differ between a run and its resumption, and the bodies that it led to: a mesh
 /// or a table of places may have changed behind its name.
 fn comparable(attributes: &Attributes) -> Option<(Value, Value)> {
@@ -387,6 +417,23 @@ pub struct MemorySink {
     pub events: Vec<Event>,
     /// What acts between two at each sample, where a scene asks for it.
     pub exchanges: Vec<Vec<Exchange>>,
+}
+
+impl MemorySink {
+    /// Gives rows, and what acts between two at each, to another sink; there must be no event yet.
+    ///
+    /// # Errors
+    /// Those of the other sink.
+    pub fn hand_on(&self, sink: &mut dyn Sink) -> Result<(), RecordError> {
+        debug_assert!(self.events.is_empty(), "events would have to stand between the rows");
+        for (row, (time, numbers)) in self.rows.iter().enumerate() {
+            if let Some(exchanges) = self.exchanges.get(row) {
+                sink.exchanges(exchanges)?;
+            }
+            sink.row(*time, numbers)?;
+        }
+        Ok(())
+    }
 }
 
 impl Sink for MemorySink {

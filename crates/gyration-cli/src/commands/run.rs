@@ -10,9 +10,7 @@ use crate::waiting::waiting;
 use gyration_plot::{OVERVIEW, leave_overview};
 use gyration_record::{Attributes, RecordError, Recording, remove};
 use gyration_scene::Scene;
-use gyration_sim::{
-    Job, MemorySink, Outcome, Reason, RecordingEnd as Ended, Remarks, RunError, RunSummary, Simulation, Verdict,
-};
+use gyration_sim::{Job, Outcome, Reason, RecordingEnd as Ended, Remarks, RunError, RunSummary, Verdict};
 use gyration_threads::Threads;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -38,9 +36,10 @@ pub fn execute(arguments: &RunArguments) -> Result<u8, CliError> {
             return job.resume(&path, &mut watch).map_err(CliError::from);
         }
         let looking = "looking at the start".to_owned();
-        waiting(looking, !arguments.quiet, || job.interruption().within(|| make_room(arguments, &job, &path)))?;
+        let begun = waiting(looking, !arguments.quiet, || job.interruption().within(|| job.begun()))?;
+        make_room(arguments, &path)?;
         watch.await_first_step();
-        Ok(job.record(&path, &mut watch)?)
+        Ok(begun.record(&path, &mut watch)?)
     });
     watch.finish();
     let ended = ended.inspect_err(|error| {
@@ -111,9 +110,8 @@ fn exists(path: &Path) -> bool {
     path.symlink_metadata().is_ok()
 }
 
-/// Removes the recording that is to be replaced, once it is known that the new run has a start within the model.
-fn make_room(arguments: &RunArguments, job: &Job, path: &Path) -> Result<(), CliError> {
-    Simulation::new(job.model, job.start, job.plan)?.begin(&mut MemorySink::default())?;
+/// Removes the recording that is to be replaced; the new run has a start within the model.
+fn make_room(arguments: &RunArguments, path: &Path) -> Result<(), CliError> {
     if arguments.force && path.symlink_metadata().is_ok() {
         remove(path)?;
     }
