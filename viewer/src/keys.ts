@@ -47,6 +47,7 @@ export function keysOf(player: Player, transport: Transport, picture: Picture, p
     key("r R", "R", "first view again", () => picture.reset()),
     key("b B", "B", "next colouring", () => toolbar.nextColoring()),
     key("c C", "C", "contact forces", () => toolbar.toggle("forces")),
+    key("n N", "N", "network of forces between bodies", () => toolbar.toggle("network")),
     key("v V", "V", "velocities", () => toolbar.toggle("velocity")),
     key("a A", "A", "principal axes of strain", () => toolbar.toggle("axes")),
     key("t T", "T", "trails", () => toolbar.toggle("trails")),

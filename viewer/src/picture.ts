@@ -23,6 +23,7 @@ export class Picture {
   private readonly shown: Shown = {
     coloring: "body",
     forces: false,
+    network: false,
     velocity: false,
     axes: false,
     trails: false,
@@ -91,6 +92,7 @@ export class Picture {
     before?.dispose();
     stage.expect(recording.header.bodies.length);
     this.view = new SceneView(stage, recording, this.shown, again ? before.framing : null);
+    if (recording.network) recording.network.came = () => this.request(null);
     this.toolbar.load(recording, this.view);
     if (!again) stage.look();
     this.scales.load(classesOf(recording.header));
@@ -178,6 +180,7 @@ export class Picture {
       line: themeColor("--line"),
       shadow: Number(themeColor("--shadow")),
       mark: themeColor("--mark"),
+      sky: themeColor("--sky"),
     });
     this.request(null);
   }
@@ -189,7 +192,7 @@ export class Picture {
     this.edge.show(view.edgeMarks());
     const grid =
       this.shown.supports && view.recording.header.supports.length > 0 ? view.supports.spacing : null;
-    this.scales.show(view.colors.scale(this.shown.coloring), grid);
+    this.scales.show(view.colors.scale(this.shown.coloring), view.network.scale, grid);
   }
 
   /** A click on a body chooses it, a click beside all bodies chooses none. */

@@ -15,6 +15,11 @@ pub fn recorded_besides(model: &Model) -> Vec<Recorded> {
     stress.into_iter().chain(parts.into_iter().filter(|_| has_parts(model))).collect()
 }
 
+/// Whether bodies may push one another.
+pub fn has_network(model: &Model) -> bool {
+    model.bodies.len() > 1 && !model.rules().is_empty()
+}
+
 /// Whether a body has stresses.
 pub fn deforms(model: &Model) -> bool {
     model.bodies.iter().any(|body| !matches!(body.kind, BodyKind::Rigid(_)))

@@ -80,6 +80,8 @@ pub struct Header {
     pub surfaces: Vec<(usize, usize)>,
     /// Samples there are.
     pub rows: usize,
+    /// Whether the network of forces can be had of each.
+    pub network: bool,
     /// Samples kept, of how many, where not all are.
     pub thinned: Option<(usize, usize)>,
     /// What else the reader should know.
@@ -124,6 +126,7 @@ impl Header {
             event_kinds: recording.event_kinds().to_vec(),
             surfaces: surfaces(size),
             rows: recording.rows(),
+            network: false,
             thinned: None,
             notes: Vec::new(),
         }
@@ -156,6 +159,7 @@ impl Header {
             event_kinds: layout.event_kinds.clone(),
             surfaces: surfaces(size),
             rows: 0,
+            network: false,
             thinned: None,
             notes: Vec::new(),
         }
@@ -194,6 +198,7 @@ impl Header {
             "event_kinds": self.event_kinds,
             "surfaces": surfaces.collect::<Vec<_>>(),
             "rows": self.rows,
+            "network": self.network,
             "end": end,
             "complete": self.is_complete(),
             "thinned": self.thinned.map(|(kept, of)| json!({ "kept": kept, "of": of })),

@@ -21,4 +21,4 @@ pub mod store;
 mod watched;
 
 pub use kept::{FileFormat, KeptRun};
-pub use watched::{FirstRow, SceneHash, WatchedRun, finish, progress};
+pub use watched::{NetworkTeller, SceneHash, WatchedRun, finish, progress};

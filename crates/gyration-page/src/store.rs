@@ -21,6 +21,8 @@ pub struct Store {
     times: Vec<f64>,
     /// The rows, one after the other.
     values: Vec<f32>,
+    /// Networks of forces, one behind the other, and where that of each row ends; empty where they are not told.
+    network: (Vec<f32>, Vec<usize>),
     events: Vec<Event>,
     /// The last word on how far it is; counted, so that a page knows whether it has had it.
     progress: (u64, Value),
@@ -77,6 +79,13 @@ impl Store {
     pub fn row(&mut self, time: f64, row: &[f64]) {
         self.times.push(time);
         self.values.extend(row.iter().map(|value| *value as f32));
+    }
+
+    /// Appends the network of forces of the row that comes next ([`blob::network`]).
+    pub fn network(&mut self, network: &[f32]) {
+        let (numbers, ends) = &mut self.network;
+        numbers.extend(network);
+        ends.push(numbers.len());
     }
 
     /// Appends an event.
@@ -163,6 +172,12 @@ impl Store {
         }
         let head = json!({ "kind": "rows", "run": self.run, "first": first, "rows": last - first });
         messages.push(Message::Binary(binary::encode(&head, &payload)));
+        let (numbers, ends) = &self.network;
+        if let Some(end) = ends.get(last - 1) {
+            let start = first.checked_sub(1).map_or(0, |before| ends[before]);
+            let head = json!({ "kind": "network", "run": self.run, "first": first, "rows": last - first });
+            messages.push(Message::Binary(binary::encode(&head, &blob::floats(&numbers[start..*end]))));
+        }
         cursor.rows = last;
         last < self.times.len()
     }

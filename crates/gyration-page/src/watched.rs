@@ -1,14 +1,16 @@
 //! A scene that runs as it is watched: header and surfaces, rows, how far it is, how it ended.
 
-use crate::besides::recorded_besides;
+use crate::besides::{has_network, recorded_besides};
 use crate::blob;
 use crate::header::{ArrayEntry, Header};
 use crate::kept::KeptRun;
 use crate::places::ScenePlaces;
 use crate::store::Store;
-use gyration_record::{ArraySpec, Layout, RecordError, RowHash};
+use gyration::dynamics::Exchange;
+use gyration::model::Model;
+use gyration_record::{ArraySpec, Layout, RowHash};
 use gyration_scene::Scene;
-use gyration_sim::{Job, Outcome, Progress, Provenance, RunSummary, Simulation, Sink, limit_in_words};
+use gyration_sim::{Job, MemorySink, Outcome, Progress, Provenance, RunSummary, Simulation, limit_in_words, network};
 use serde_json::{Value, json};
 use std::time::Duration;
 
@@ -40,6 +42,7 @@ impl<'a> WatchedRun<'a> {
         for quantity in recorded_besides(job.model) {
             job.plan.extras = job.plan.extras.and(quantity);
         }
+        job.plan.pairs |= has_network(job.model);
         let layout = job.layout();
         let thinned = thin(&mut job, &layout);
         Self { job, recorded, layout, thinned }
@@ -49,7 +52,7 @@ impl<'a> WatchedRun<'a> {
     ///
     /// # Errors
     /// These words.
-    pub fn begun(&self, first: &mut FirstRow) -> Result<Simulation, String> {
+    pub fn begun(&self, first: &mut MemorySink) -> Result<Simulation, String> {
         let Job { model, start, plan, .. } = self.job;
         let mut simulation = Simulation::new(model, start, plan).map_err(|error| error.to_string())?;
         simulation.begin(first).map_err(|error| error.to_string())?;
@@ -65,6 +68,7 @@ impl<'a> WatchedRun<'a> {
                 .notes
                 .push(format!("The run is long: some {kept} of {of} samples are kept here. `gyration run` keeps all."));
         }
+        header.network = has_network(self.job.model);
         let fixed = self.layout.fixed.iter().filter_map(|array| {
             let (surface, part) = array.spec.name.strip_prefix("surface_")?.split_once('_')?;
             let bytes = if part == "triangles" { blob::indices(&array.values) } else { blob::singles(&array.values) };
@@ -88,6 +92,11 @@ impl<'a> WatchedRun<'a> {
         Some(KeptRun::new(self.job.scene_name(), layout, self.job.all_attributes(), self.places()?))
     }
 
+    /// Who tells the network of forces; none where bodies do not meet.
+    pub fn network(&self) -> Option<NetworkTeller> {
+        has_network(self.job.model).then(|| NetworkTeller { model: self.job.model.clone() })
+    }
+
     fn places(&self) -> Option<ScenePlaces> {
         ScenePlaces::among(&self.recorded.arrays, &self.layout.arrays)
     }
@@ -105,6 +114,18 @@ pub fn finish(
     let outcome = summary.get("outcome").cloned().unwrap_or(Value::Null);
     let hash = hash.map(|hash| hash.hash.to_string());
     store.finish(json!({ "type": "done", "outcome": outcome, "summary": summary, "hash": hash }));
+}
+
+/// Tells a store who pushes whom.
+pub struct NetworkTeller {
+    model: Model,
+}
+
+impl NetworkTeller {
+    /// At the sample whose row comes next.
+    pub fn tell(&self, store: &mut Store, exchanges: &[Exchange]) {
+        store.network(&blob::network(&network(&self.model, exchanges.to_vec())));
+    }
 }
 
 impl SceneHash {
@@ -142,17 +163,6 @@ fn thin(job: &mut Job, layout: &Layout) -> Option<(usize, usize)> {
 /// Of how many samples one is kept. The product needs 64 bits, which a page's own sizes lack.
 fn thinning(samples: usize, numbers: usize) -> usize {
     (samples as u64).saturating_mul(numbers as u64).div_ceil(MOST_NUMBERS) as usize
-}
-
-/// Keeps the first row until the run is known to have one.
-#[derive(Default)]
-pub struct FirstRow(pub Option<(f64, Vec<f64>)>);
-
-impl Sink for FirstRow {
-    fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
-        self.0 = Some((time, row.to_vec()));
-        Ok(())
-    }
 }
 
 #[cfg(test)]

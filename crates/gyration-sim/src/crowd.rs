@@ -90,7 +90,7 @@ impl CrowdState {
 }
 
 /// Drops what is no contact, and contacts that do not count, until all that are left do.
-fn keep_counted(contacts: &mut Vec<Exchange>, needed: f64) {
+pub(crate) fn keep_counted(contacts: &mut Vec<Exchange>, needed: f64) {
     contacts.retain(|exchange| exchange.kind == ExchangeKind::Contact && exchange.force != Vec3::zeros());
     loop {
         let before = contacts.len();

@@ -23,6 +23,7 @@ mod long_bodies;
 mod meetings;
 mod modes;
 mod neighbours;
+mod network;
 mod own_forces;
 mod partings;
 mod pressed;

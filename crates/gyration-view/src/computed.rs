@@ -2,8 +2,9 @@
 //! they had been recorded.
 
 use crate::error::ViewError;
+use crate::stored::described;
 use gyration::dynamics::ContactParts;
-use gyration_page::besides::{deforms, has_parts};
+use gyration_page::besides::{deforms, has_network, has_parts};
 use gyration_page::blob;
 use gyration_page::header::{ArrayEntry, Header};
 use gyration_record::Recording;
@@ -12,7 +13,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Bodies times samples for which forces are computed at most: some seconds.
-const MOST_PARTS: usize = 100_000;
+pub(crate) const MOST_PARTS: usize = 100_000;
 
 /// An array that is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,6 +59,7 @@ impl Shown {
 #[derive(Debug, Clone)]
 pub(crate) struct Computed {
     shown: Vec<Shown>,
+    has_network: bool,
     memory: Arc<Mutex<Memory>>,
 }
 
@@ -74,7 +76,8 @@ impl Computed {
     pub fn offer(recording: &Recording, header: &mut Header) -> Option<Self> {
         let lacks = |header: &Header, shown: Shown| header.arrays.iter().all(|array| array.name != shown.name());
         // A model is built again only where something may be wanted of it.
-        if ![Shown::Stress, Shown::Normal].into_iter().any(|shown| lacks(header, shown)) {
+        let is_alone = described(header, "bodies").len() < 2;
+        if is_alone && ![Shown::Stress, Shown::Normal].into_iter().any(|shown| lacks(header, shown)) {
             return None;
         }
         let replay = match Replay::open(recording) {
@@ -100,12 +103,17 @@ impl Computed {
             }
         }
         header.arrays.extend(shown.iter().map(|shown| shown.entry(model.bodies.len())));
+        header.network = has_network(model);
         let memory = Arc::new(Mutex::new(Memory { replay, parts: HashMap::new() }));
-        (!shown.is_empty()).then_some(Self { shown, memory })
+        let has_network = header.network;
+        (!shown.is_empty() || has_network).then_some(Self { shown, has_network, memory })
     }
 
     /// The bytes of rows of an array; none if it is not one of these.
     pub fn blob(&self, name: &str, rows: impl Iterator<Item = usize>) -> Option<Result<Vec<u8>, ViewError>> {
+        if name == "network" {
+            return self.has_network.then(|| self.network(rows));
+        }
         let shown = *self.shown.iter().find(|shown| shown.name() == name)?;
         let mut memory = self.memory();
         let mut bytes = Vec::new();
@@ -116,6 +124,14 @@ impl Computed {
             }
         }
         Some(Ok(bytes))
+    }
+
+    fn network(&self, mut rows: impl Iterator<Item = usize>) -> Result<Vec<u8>, ViewError> {
+        let mut memory = self.memory();
+        rows.try_fold(Vec::new(), |mut bytes, row| {
+            bytes.extend(blob::floats(&blob::network(&memory.replay.network(row)?)));
+            Ok(bytes)
+        })
     }
 
     /// The replay; a thread that died with it locked left it whole.

@@ -3,6 +3,7 @@
 //! Data are deflated, then written in base64. A file that can be mailed is small: arrays that only few look at are left
 //! out of a long recording first, then samples are thinned, one in 2, 3, …, and the header says so.
 
+use crate::computed::MOST_PARTS;
 use crate::error::ViewError;
 use crate::page;
 use crate::stored::{Stored, kept};
@@ -48,6 +49,7 @@ pub fn report(stored: &Stored) -> Result<Report, ViewError> {
     loop {
         header.notes.truncate(notes);
         header.rows = kept(rows, every);
+        header.network = stored.header().network && stored.bodies() * header.rows <= MOST_PARTS;
         header.thinned = (every > 1).then_some((header.rows, rows));
         if every > 1 {
             header.notes.push(format!(
@@ -103,7 +105,7 @@ fn in_script(json: &Value) -> String {
 
 /// The elements that hold one sample in `every`.
 fn sampled(stored: &Stored, header: &Header, every: usize) -> Result<String, ViewError> {
-    let names = header.arrays.iter().map(|array| array.name.as_str());
+    let names = header.arrays.iter().map(|array| array.name.as_str()).chain(header.network.then_some("network"));
     std::iter::once("time").chain(names).map(|name| element(stored, name, every)).collect()
 }
 

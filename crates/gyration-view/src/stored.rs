@@ -49,6 +49,11 @@ impl Stored {
         self.header.rows
     }
 
+    /// Bodies there are.
+    pub(crate) fn bodies(&self) -> usize {
+        described(&self.header, "bodies").len()
+    }
+
     /// Where the recording is.
     pub fn path(&self) -> &Path {
         self.recording.path()
@@ -74,7 +79,9 @@ impl Stored {
             let array = self.recording.read(&format!("surface_{surface}_{part}"))?;
             return Ok(if part == "triangles" { blob::indices(&array.data) } else { blob::singles(&array.data) });
         }
-        let grows = name == "time" || self.header.arrays.iter().any(|array| array.name == name);
+        let grows = name == "time"
+            || name == "network" && self.header.network
+            || self.header.arrays.iter().any(|array| array.name == name);
         if !grows {
             return Err(RecordError::NoSuchArray { name: name.to_owned() }.into());
         }
@@ -122,9 +129,13 @@ impl Stored {
 
 /// Whether the page may want more than was recorded: of bodies that deform, of several bodies, or of several supports.
 fn may_lack(header: &Header) -> bool {
-    let described = |name: &str| header.attributes.get(name).and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
-    let bodies = described("bodies");
-    bodies.iter().any(|body| body["kind"] != "rigid") || bodies.len() > 1 || described("supports").len() > 1
+    let bodies = described(header, "bodies");
+    bodies.iter().any(|body| body["kind"] != "rigid") || bodies.len() > 1 || described(header, "supports").len() > 1
+}
+
+/// What a header tells of each of some things.
+pub(crate) fn described<'a>(header: &'a Header, name: &str) -> &'a [Value] {
+    header.attributes.get(name).and_then(Value::as_array).map_or(&[], Vec::as_slice)
 }
 
 /// The rows that are kept of a range: one in `every`, and the last.

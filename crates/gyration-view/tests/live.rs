@@ -20,6 +20,7 @@ pub(crate) struct Watched {
     pub(crate) times: Vec<f64>,
     /// Rows of the array `position`.
     positions: Vec<f32>,
+    pub(crate) network: Vec<f32>,
     blobs: Vec<String>,
     done: Value,
     paused: Option<bool>,
@@ -80,6 +81,11 @@ fn take(watched: &mut Watched, bytes: &[u8]) {
         return watched.blobs.push(head["name"].as_str().unwrap().to_owned());
     }
     let rows = head["rows"].as_u64().unwrap() as usize;
+    if head["kind"] == "network" {
+        // Rows have come, then what is pushed in them.
+        assert_eq!(head["first"].as_u64().unwrap() as usize + rows, watched.times.len());
+        return watched.network.extend(singles(payload));
+    }
     assert_eq!(head["first"], watched.times.len());
     watched.times.extend(doubles(&payload[..8 * rows]));
     let first = &watched.header["arrays"][0];

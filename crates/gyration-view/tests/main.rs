@@ -6,6 +6,7 @@ mod common;
 mod connections;
 mod corpus;
 mod live;
+mod network;
 mod recording;
 mod report;
 mod waves;

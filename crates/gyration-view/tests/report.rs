@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::path::Path;
 
 /// The report of a recording, if the page was built.
-fn html(path: &Path) -> Option<String> {
+pub(crate) fn html(path: &Path) -> Option<String> {
     let made = report(&Stored::open(path).unwrap());
     match page::html() {
         Ok(_) => Some(made.unwrap().html),
@@ -20,12 +20,12 @@ fn html(path: &Path) -> Option<String> {
     }
 }
 
-fn header(html: &str) -> Value {
+pub(crate) fn header(html: &str) -> Value {
     let from = html.split("id=\"gyration-header\">").nth(1).unwrap();
     serde_json::from_str(from.split("</script>").next().unwrap()).unwrap()
 }
 
-fn blob(html: &str, name: &str) -> Vec<u8> {
+pub(crate) fn blob(html: &str, name: &str) -> Vec<u8> {
     let from = html.split(&format!("data-blob=\"{name}\">")).nth(1).unwrap();
     let packed = base64::engine::general_purpose::STANDARD.decode(from.split("</script>").next().unwrap()).unwrap();
     miniz_oxide::inflate::decompress_to_vec(&packed).unwrap()

@@ -1,12 +1,13 @@
 //! A scene that runs slice by slice, as it is asked for, and what it has to tell.
 
+use gyration::dynamics::Exchange;
 use gyration_files::GivenFiles;
 use gyration_page::store::{Cursor, Message, Store};
-use gyration_page::{FileFormat, FirstRow, KeptRun, SceneHash, WatchedRun, finish, progress};
+use gyration_page::{FileFormat, KeptRun, NetworkTeller, SceneHash, WatchedRun, finish, progress};
 use gyration_record::RecordError;
 use gyration_scene::Scene;
 use gyration_sim::events::Event;
-use gyration_sim::{Monitor, Outcome, Progress, Provenance, Reason, Simulation, Sink};
+use gyration_sim::{MemorySink, Monitor, Outcome, Progress, Provenance, Reason, Simulation, Sink};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -49,6 +50,7 @@ pub struct Engine {
 struct Run {
     simulation: Simulation,
     hash: Option<SceneHash>,
+    network: Option<NetworkTeller>,
 }
 
 impl Engine {
@@ -83,15 +85,14 @@ impl Engine {
         let scene = Scene::among(&name, &asked.scene, self.files.clone().into(), &asked.set);
         let scene = scene.and_then(gyration_sim::complete).map_err(|errors| errors.to_string())?;
         let watched = WatchedRun::of(&scene, &provenance());
-        let mut first = FirstRow::default();
+        let mut first = MemorySink::default();
         let simulation = watched.begun(&mut first)?;
         watched.publish(&mut self.store);
-        let (mut hash, mut kept) = (watched.hash(), watched.kept());
-        if let Some((time, row)) = first.0 {
-            let told = Publisher { store: &mut self.store, hash: &mut hash, kept: &mut kept }.row(time, &row);
-            told.map_err(|error| error.to_string())?;
-        }
-        Ok((Run { simulation, hash }, kept))
+        let (mut hash, mut kept, network) = (watched.hash(), watched.kept(), watched.network());
+        let network_of = network.as_ref();
+        let mut sink = Publisher { store: &mut self.store, hash: &mut hash, kept: &mut kept, network: network_of };
+        first.hand_on(&mut sink).map_err(|error| error.to_string())?;
+        Ok((Run { simulation, hash, network }, kept))
     }
 
     /// Goes on for so many evaluations of the rates, and some more until a step is whole.
@@ -100,7 +101,8 @@ impl Engine {
         let Some(run) = under_way else { return Standing::Ended };
         let most = run.simulation.statistics().rate_evaluations.saturating_add(evaluations);
         let mut slice = Slice { most, progress: None };
-        let ran = run.simulation.run(&mut Publisher { store, hash: &mut run.hash, kept }, &mut slice);
+        let mut sink = Publisher { store, hash: &mut run.hash, kept, network: run.network.as_ref() };
+        let ran = run.simulation.run(&mut sink, &mut slice);
         match (ran, slice.progress) {
             (Ok(outcome), Some(progress)) if is_asked(&outcome) => {
                 store.progress(progress);
@@ -170,9 +172,17 @@ struct Publisher<'a> {
     store: &'a mut Store,
     hash: &'a mut Option<SceneHash>,
     kept: &'a mut Option<KeptRun>,
+    network: Option<&'a NetworkTeller>,
 }
 
 impl Sink for Publisher<'_> {
+    fn exchanges(&mut self, exchanges: &[Exchange]) -> Result<(), RecordError> {
+        if let Some(network) = self.network {
+            network.tell(self.store, exchanges);
+        }
+        Ok(())
+    }
+
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
         if let Some(hash) = self.hash {
             hash.add_row(time, row);

@@ -5,12 +5,14 @@
 // padded with spaces so that 4 + L is a multiple of 8, and a payload of little-endian numbers.
 
 import { checkedHeader, type Header, type Outcome, type Summary } from "./header";
+import { Network } from "./network";
 import { Recording } from "./recording";
 import type { Listener, Progress } from "./source";
 
 /** What a binary message says of its payload. */
 export type Announced =
   | { kind: "rows"; run: number; first: number; rows: number }
+  | { kind: "network"; run: number; first: number; rows: number }
   | { kind: "blob"; run: number; name: string };
 
 export type Message =
@@ -84,6 +86,7 @@ export class Feed {
   private open(header: Header): void {
     try {
       this.recording = new Recording(checkedHeader(header));
+      if (header.network) this.recording.network = new Network();
       this.begun = false;
       this.last = null;
     } catch (error) {
@@ -96,6 +99,10 @@ export class Feed {
     if (!recording) return;
     const { announced, payload } = unpacked(message);
     if (announced.run !== recording.header.run) return;
+    if (announced.kind === "network") {
+      recording.network?.put(announced.first, new Float32Array(payload));
+      return;
+    }
     if (announced.kind === "rows") {
       const strides = recording.header.arrays.map((array) => array.stride);
       recording.put(announced.first, ...rowsOf(payload, announced.rows, strides));

@@ -119,6 +119,8 @@ export interface Header {
   columns: [string, string, number][];
   event_kinds: string[];
   rows: number;
+  /** Whether the source tells the forces between bodies. */
+  network?: boolean;
   end: number;
   complete: boolean;
   outcome: Outcome | null;

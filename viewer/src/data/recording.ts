@@ -4,6 +4,7 @@
 // `generation` and `rows` whether there is something new.
 
 import type { ArraySpec, Header } from "./header";
+import type { Network } from "./network";
 
 export interface Surface {
   /** Relative to the centre of mass in the reference placement [m], three a point. */
@@ -44,6 +45,8 @@ export class Recording {
   time: Float64Array = new Float64Array(0);
   rows = 0;
   events: RunEvent[] = [];
+  /** The forces between bodies; `null` where the source cannot tell them. */
+  network: Network | null = null;
 
   constructor(public header: Header) {
     for (const spec of header.arrays) this.tracks.set(spec.name, new Track(spec));

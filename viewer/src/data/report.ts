@@ -1,6 +1,7 @@
 // The data of a report: script elements of the page that hold JSON and base64 of raw deflate.
 
 import { checkedHeader } from "./header";
+import { Network } from "./network";
 import { Recording } from "./recording";
 import type { Listener, Source } from "./source";
 
@@ -14,6 +15,11 @@ export function embeddedReport(page: Document): Source | null {
     async start(listener: Listener) {
       const header = checkedHeader(JSON.parse(element.textContent ?? ""));
       const recording = new Recording(header);
+      // Unpacked when it is first looked at: all samples at once.
+      if (header.network) {
+        const all = async () => ({ first: 0, numbers: new Float32Array(await blob(page, "network")) });
+        recording.network = new Network(all);
+      }
       const surfaces = header.surfaces.map(async (_, k) => {
         const [points, triangles] = await Promise.all([
           blob(page, `surface/${k}/points`),

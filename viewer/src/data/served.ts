@@ -1,10 +1,14 @@
 // A recording on the server's disk. One that is still being written is asked for new rows each second.
 
 import { checkedHeader, type Header } from "./header";
+import { Network, type Samples } from "./network";
 import { Recording } from "./recording";
 import type { Listener, Source } from "./source";
 
 const POLL_MS = 1000;
+
+/** Forces asked for at once are those of so many bodies, each counted once a sample. */
+const BODIES_AT_ONCE = 2000;
 
 /** Rows asked for at once are about this many bytes. */
 const PORTION_BYTES = 8e6;
@@ -21,6 +25,7 @@ class Served implements Source {
 
   constructor(first: Header) {
     this.recording = new Recording(first);
+    if (first.network) this.recording.network = new Network(forcesFrom(this.recording));
   }
 
   async start(listener: Listener): Promise<void> {
@@ -101,6 +106,16 @@ class Served implements Source {
   private lose(error: unknown): void {
     this.listener?.lost(error instanceof ServerError ? error.message : "The server does not answer.");
   }
+}
+
+/** Brings forces between bodies, some samples at once where bodies are few: what plays needs the next ones soon. */
+function forcesFrom(recording: Recording): (row: number) => Promise<Samples> {
+  const { length } = recording.header.bodies;
+  const many = Math.max(1, Math.floor(BODIES_AT_ONCE / Math.max(1, length)));
+  return async (row) => {
+    const to = Math.min(recording.rows, row + many);
+    return { first: row, numbers: new Float32Array(await bytes(`network?from=${row}&to=${to}`)) };
+  };
 }
 
 /** An answer of the server that is an error, in its words. */

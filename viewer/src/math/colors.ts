@@ -42,16 +42,21 @@ export function rgb(hex: string): Rgb {
 
 /** The colour of a number from 0 to 1; beyond, the end's. */
 export function mapped(value: number): Rgb {
-  const place = Math.min(1, Math.max(0, value)) * (VIRIDIS.length - 1);
-  const low = Math.min(VIRIDIS.length - 2, Math.floor(place));
+  return between(VIRIDIS, value);
+}
+
+/** The same on straight lines between colours at equal distances. */
+export function between(colors: Rgb[], value: number): Rgb {
+  const place = Math.min(1, Math.max(0, value)) * (colors.length - 1);
+  const low = Math.min(colors.length - 2, Math.floor(place));
   const part = place - low;
-  const [a, b] = [VIRIDIS[low], VIRIDIS[low + 1]];
+  const [a, b] = [colors[low], colors[low + 1]];
   return [a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])];
 }
 
-/** The map as a CSS gradient. */
-export function mapGradient(direction: string): string {
-  const stops = VIRIDIS.map(
+/** The map as a CSS gradient, or another one. */
+export function mapGradient(direction: string, colors = VIRIDIS): string {
+  const stops = colors.map(
     ([r, g, b]) => `rgb(${[r, g, b].map((part) => Math.round(255 * part)).join(" ")})`,
   );
   return `linear-gradient(${direction}, ${stops.join(", ")})`;

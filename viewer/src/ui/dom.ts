@@ -32,6 +32,7 @@ const ICONS = {
   follow: "M12 3v4M12 17v4M3 12h4M17 12h4M12 8a4 4 0 1 0 0 8 4 4 0 0 0 0-8z",
   frame: "M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5",
   force: "M12 20V5M7 10l5-6 5 6M5 20h14",
+  network: "M5 5l7 6 7-5M12 11l-5 8M12 11l6 8M5 5h.01M19 6h.01M7 19h.01M18 19h.01M12 11h.01",
   velocity: "M3 12h16M14 6l6 6-6 6",
   axes: "M4 20L20 4M4 4l16 16M4 9V4h5M15 20h5v-5",
   trail: "M3 18c4 0 4-11 8-11s3 8 6 8 3-4 4-6",

@@ -44,6 +44,7 @@ export function helpDialog(keys: Key[]): HTMLDialogElement {
       "p",
       { class: "quiet" },
       "A contact force is drawn asinh(f/mg) half body sizes long: in proportion below the weight, by logarithm above. ",
+      "The network of forces has a bar for each contact, as wide as its force is of the mean. ",
       "Axes of strain are orange where the body is extended, blue where it is shortened. ",
       "Between samples, slow playing moves bodies along straight lines; at rest only samples are shown.",
     ),

@@ -4,29 +4,55 @@ import { type BodyClasses, classLabel, MOST_ALONE } from "../data/classes";
 import { mapGradient, seriesColor } from "../math/colors";
 import { plain, scaleFor, withUnit } from "../math/format";
 import type { Scale } from "../view/coloring";
+import { FORCE_COLORS } from "../view/network";
 import { h } from "./dom";
 
 const TICKS = 5;
 
-export class Scales {
+/** A gradient with its title and numbers. */
+class Bar {
   readonly element: HTMLElement;
   private readonly title = h("div", { class: "scale-title" });
   private readonly numbers = h("div", { class: "scale-numbers" });
-  private readonly bar: HTMLElement;
+
+  constructor(label: string, gradient: string) {
+    const colors = h("div", { class: "scale-gradient", style: `background:${gradient}` });
+    this.element = h(
+      "div",
+      { class: "scale", role: "img", "aria-label": label },
+      this.title,
+      colors,
+      this.numbers,
+    );
+  }
+
+  show(scale: Scale | null): void {
+    this.element.hidden = scale === null;
+    if (!scale) return;
+    const { low, high, title } = scale;
+    const [factor, units] = scaleFor(Math.max(Math.abs(low), Math.abs(high)), scale.units);
+    this.title.textContent = units === "1" ? title : `${title} [${units}]`;
+    const digits = Math.max(3, Math.ceil(Math.log10(Math.abs(high) / (high - low))) + 2);
+    this.numbers.replaceChildren(
+      ...Array.from({ length: TICKS }, (_, k) => {
+        const value = low + ((high - low) * k) / (TICKS - 1);
+        return h("span", {}, plain(value / factor, Math.min(digits, 7)));
+      }),
+    );
+  }
+}
+
+export class Scales {
+  readonly element: HTMLElement;
+  private readonly bar = new Bar("colour bar", mapGradient("to right"));
+  private readonly forces = new Bar("colours of forces", mapGradient("to right", FORCE_COLORS));
   private readonly classes = h("div", { class: "classes", role: "list", "aria-label": "colours of bodies" });
   private readonly grid = h("div", { class: "grid-note" });
   private shown = "";
 
   constructor() {
-    const gradient = h("div", { class: "scale-gradient", style: `background:${mapGradient("to right")}` });
-    this.bar = h(
-      "div",
-      { class: "scale", role: "img", "aria-label": "colour bar" },
-      this.title,
-      gradient,
-      this.numbers,
-    );
-    this.element = h("div", { class: "scales" }, this.bar, this.classes, this.grid);
+    const bars = h("div", { class: "scale-bars" }, this.forces.element, this.bar.element);
+    this.element = h("div", { class: "scales" }, bars, this.classes, this.grid);
   }
 
   /** The classes of bodies, where colours do not stand for single ones. */
@@ -40,23 +66,14 @@ export class Scales {
     );
   }
 
-  show(scale: Scale | null, grid: number | null): void {
-    const key = JSON.stringify([scale, grid]);
+  /** The scale of the bodies, and that of the forces between them. */
+  show(scale: Scale | null, forces: Scale | null, grid: number | null): void {
+    const key = JSON.stringify([scale, forces, grid]);
     if (key === this.shown) return;
     this.shown = key;
     this.classes.hidden = scale !== null;
-    this.bar.hidden = scale === null;
+    this.bar.show(scale);
+    this.forces.show(forces);
     this.grid.textContent = grid === null ? "" : `grid ${withUnit(grid, "m", 3)}`;
-    if (!scale) return;
-    const { low, high, title } = scale;
-    const [factor, units] = scaleFor(Math.max(Math.abs(low), Math.abs(high)), scale.units);
-    this.title.textContent = units === "1" ? title : `${title} [${units}]`;
-    const digits = Math.max(3, Math.ceil(Math.log10(Math.abs(high) / (high - low))) + 2);
-    this.numbers.replaceChildren(
-      ...Array.from({ length: TICKS }, (_, k) => {
-        const value = low + ((high - low) * k) / (TICKS - 1);
-        return h("span", {}, plain(value / factor, Math.min(digits, 7)));
-      }),
-    );
   }
 }

@@ -10,6 +10,7 @@ import { h, type Icon, iconButton, pressed } from "./dom";
 
 const TOGGLES: [Layer, Icon, string, string][] = [
   ["forces", "force", "Contact forces", "C"],
+  ["network", "network", "Network of forces between bodies", "N"],
   ["velocity", "velocity", "Velocities", "V"],
   ["axes", "axes", "Principal axes of strain", "A"],
   ["trails", "trail", "Trails of the centres", "T"],
@@ -105,6 +106,10 @@ export class Toolbar {
     this.body.hidden = bodies.length < 2;
     this.buttons.get("axes")!.disabled = bodies.every((body) => body.kind === "rigid");
     this.buttons.get("joints")!.disabled = !isJoined;
+    // What few recordings have takes no room.
+    const network = this.buttons.get("network")!;
+    network.disabled = network.hidden = recording.network === null;
+    if (network.hidden) this.shown.network = false;
     if (this.chosen !== null && !this.members()) this.choose(null);
     if (this.shown.follow) this.shown.follow = this.members() ?? (bodies.length > 0 ? [0] : null);
     this.refresh();
@@ -153,7 +158,9 @@ export class Toolbar {
 
   /** Shows what a look tells, and all else as it begins. */
   restore({ show = BEGINNING, color = "body", body, group, follow }: Look, travels: boolean): void {
-    for (const layer of LAYERS) this.shown[layer] = show.includes(layer);
+    for (const layer of LAYERS) {
+      this.shown[layer] = show.includes(layer) && !(layer === "network" && this.buttons.get(layer)!.hidden);
+    }
     const index = COLORINGS.indexOf(color);
     this.shown.coloring = this.options[index].disabled ? "body" : color;
     const place = this.bodies.indexOf(body ?? "");

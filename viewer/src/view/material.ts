@@ -30,8 +30,8 @@ void main() {
 const PATTERN = "// pattern";
 
 const FRAGMENT = /* glsl */ `
-uniform vec3 up, key, fill;
-uniform float sky, opacity, contrast;
+uniform vec3 up, key, fill, paper;
+uniform float sky, opacity, contrast, pale;
 varying vec3 vReference, vNormal, vColor, vView;
 #ifdef PAINTED
 uniform vec3 middle, halfSides;
@@ -67,6 +67,7 @@ void main() {
 	gl_FragColor = vec4( color * light + gloss, opacity );
 	#include <colorspace_fragment>
 	#endif
+	gl_FragColor.rgb = mix( gl_FragColor.rgb, paper, pale );
 }`;
 
 /** Where light comes from, unit vectors; shared by all bodies. */
@@ -77,9 +78,17 @@ export const LIGHT = {
   sky: { value: 1 },
 };
 
+/** How pale bodies are, from 0 to 1, and what they fade to; shared by all of them. */
+export const PALENESS = { pale: { value: 0 }, paper: { value: new Vector3(1, 1, 1) } };
+
 function material(opacity: number, contrast: number): ShaderMaterial {
   const made = new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT });
-  made.uniforms = { ...LIGHT, opacity: { value: opacity }, contrast: { value: contrast } };
+  made.uniforms = {
+    ...LIGHT,
+    ...PALENESS,
+    opacity: { value: opacity },
+    contrast: { value: contrast },
+  };
   return made;
 }
 
@@ -109,5 +118,13 @@ export function ghostMaterial(): ShaderMaterial {
 export function markMaterial(): ShaderMaterial {
   const made = material(1, 0);
   made.transparent = true;
+  made.uniforms.pale = { value: 0 };
+  return made;
+}
+
+/** Of bars in a crowd: in plain light, drawn after the bodies, never pale. */
+export function barMaterial(): ShaderMaterial {
+  const made = markMaterial();
+  made.defines = { CROWD: "" };
   return made;
 }

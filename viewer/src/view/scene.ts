@@ -5,13 +5,15 @@ import { Frame } from "../data/frame";
 import type { Vec3 } from "../data/header";
 import type { Recording } from "../data/recording";
 import { type Strays, straysOf } from "../data/strays";
+import { rgb } from "../math/colors";
 import type { EdgeMark } from "../ui/edge";
 import { BodyLayer } from "./bodies";
 import { type Coloring, Colors } from "./coloring";
 import { type Framing, framed } from "./framing";
 import { GhostLayer } from "./ghosts";
 import { JointLayer } from "./joints";
-import { LIGHT } from "./material";
+import { LIGHT, PALENESS } from "./material";
+import { NetworkLayer } from "./network";
 import { OutlineLayer } from "./outlines";
 import { directionsFor } from "./quality";
 import { SolidLayer } from "./solids";
@@ -21,8 +23,20 @@ import { SupportLayer } from "./supports";
 import { TrailLayer } from "./trails";
 import { VectorLayer } from "./vectors";
 
-/** What can be shown or not; `joints` are springs, bonds and pins as well. */
-export const LAYERS = ["forces", "velocity", "axes", "trails", "ghosts", "supports", "joints"] as const;
+/** What can be shown or not; `joints` are springs, bonds and pins as well, `network` the forces between bodies. */
+export const LAYERS = [
+  "forces",
+  "network",
+  "velocity",
+  "axes",
+  "trails",
+  "ghosts",
+  "supports",
+  "joints",
+] as const;
+
+/** How pale bodies are behind the network of forces. */
+const PALE = 0.62;
 
 export type Layer = (typeof LAYERS)[number];
 
@@ -45,6 +59,7 @@ export class SceneView {
   private readonly springs: SpringLayer;
   private readonly joints: JointLayer;
   private readonly vectors: VectorLayer;
+  readonly network: NetworkLayer;
   private readonly trails: TrailLayer;
   private ghosts: GhostLayer;
   private followed: { bodies: number[]; at: Vector3 } | null = null;
@@ -70,6 +85,7 @@ export class SceneView {
     this.springs = new SpringLayer(recording);
     this.joints = new JointLayer(recording);
     this.vectors = new VectorLayer(recording);
+    this.network = new NetworkLayer(recording, (mesh) => stage.root.add(mesh));
     this.trails = new TrailLayer(recording);
     this.ghosts = new GhostLayer(recording, stage.quality);
     stage.root.clear();
@@ -140,6 +156,8 @@ export class SceneView {
     this.supports.place(frame.time, this.middle(), LIGHT.key.value.toArray() as Vec3);
     this.vectors.shown = shown;
     this.vectors.place(frame);
+    this.network.place(frame, shown.network);
+    PALENESS.pale.value = shown.network ? PALE : 0;
     this.trails.lines.visible = shown.trails;
     this.trails.place(frame.row);
     this.ghosts.group.visible = shown.ghosts;
@@ -158,7 +176,8 @@ export class SceneView {
   }
 
   /** Colours what takes them from the theme. */
-  paint(theme: { ground: string; line: string; shadow: number; mark: string }): void {
+  paint(theme: { ground: string; line: string; shadow: number; mark: string; sky: string }): void {
+    PALENESS.paper.value.set(...rgb(theme.sky));
     this.supports.paint(theme.ground, theme.line, theme.shadow);
     this.springs.paint(theme.mark);
     this.joints.paint(theme.mark);
@@ -196,6 +215,7 @@ export class SceneView {
     this.springs.dispose();
     this.joints.dispose();
     this.vectors.dispose();
+    this.network.dispose();
     this.trails.dispose();
     this.ghosts.dispose();
   }

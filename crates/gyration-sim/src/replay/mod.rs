@@ -20,8 +20,9 @@ pub use rebuild::scene;
 pub use snapshot::{BodySnapshot, Snapshot};
 
 use crate::crowd::CrowdState;
+use crate::network::{Push, network};
 use gyration::body::{Body, BodyKind};
-use gyration::dynamics::{ContactParts, Exchange, Workspace, acting, contact_parts};
+use gyration::dynamics::{ContactParts, Exchange, Workspace, acting, contact_parts, exchanges};
 use gyration::homogeneous::observe_homogeneous;
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::model::Model;
@@ -111,6 +112,20 @@ impl Replay {
         let (instant, scratch) = workspace.read(model, &state).map_err(outside)?;
         let parts = |index| contact_parts(&instant.at(index), scratch).map_err(outside);
         (0..model.bodies.len()).map(parts).collect()
+    }
+
+    /// Who pushes whom at a sample.
+    ///
+    /// # Errors
+    /// Those of [`cauchy_stress`](Replay::cauchy_stress).
+    pub fn network(&mut self, row: usize) -> Result<Vec<Push>, ReplayError> {
+        let state = self.state(row)?;
+        let Self { model, workspace, .. } = self;
+        let outside = |source| ReplayError::Inadmissible { row, source };
+        let (instant, scratch) = workspace.read(model, &state).map_err(outside)?;
+        let mut found = Vec::new();
+        exchanges(&instant, scratch, &mut found).map_err(outside)?;
+        Ok(network(model, found))
     }
 
     /// What many bodies do together at a sample.

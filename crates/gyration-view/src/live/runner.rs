@@ -2,11 +2,12 @@
 //! numbers asked for, the other runs. A number that is refused stops nothing.
 
 use super::shared::LiveState;
-use gyration_page::{FirstRow, WatchedRun, finish, progress};
+use gyration::dynamics::Exchange;
+use gyration_page::{NetworkTeller, WatchedRun, finish, progress};
 use gyration_record::RecordError;
 use gyration_scene::Scene;
 use gyration_sim::events::Event;
-use gyration_sim::{Monitor, Outcome, Progress, Provenance, Reason, RunError, Sink, WindowEnd};
+use gyration_sim::{MemorySink, Monitor, Outcome, Progress, Provenance, Reason, RunError, Sink, WindowEnd};
 use serde_json::json;
 use std::time::{Duration, Instant};
 
@@ -49,7 +50,7 @@ pub(super) fn look(shared: &LiveState, subject: &Subject) {
 /// The scene with these overrides, if a run of it can begin.
 fn accepted(subject: &Subject, overrides: &[String]) -> Result<Scene, String> {
     let scene = gyration_sim::open(&subject.scene, overrides).map_err(|error| error.to_string())?;
-    WatchedRun::of(&scene, &subject.provenance).begun(&mut FirstRow::default())?;
+    WatchedRun::of(&scene, &subject.provenance).begun(&mut MemorySink::default())?;
     Ok(scene)
 }
 
@@ -72,11 +73,11 @@ pub(super) fn run(shared: &LiveState, subject: &Subject) {
 /// Runs the scene once, or says in words why not.
 fn run_once(shared: &LiveState, subject: &Subject, scene: &Scene) -> Result<(), String> {
     let watched = WatchedRun::of(scene, &subject.provenance);
-    let mut first = FirstRow::default();
+    let mut first = MemorySink::default();
     let mut simulation = watched.begun(&mut first)?;
     watched.publish(&mut shared.store());
-    let mut sink = Publisher { shared, told: Instant::now() };
-    let told = first.0.map_or(Ok(()), |(time, row)| sink.row(time, &row));
+    let mut sink = Publisher { shared, network: watched.network(), told: Instant::now() };
+    let told = first.hand_on(&mut sink);
     let began = Instant::now();
     let mut watch = LiveMonitor { shared, told: Instant::now() };
     let outcome = told.map_err(RunError::from).and_then(|()| simulation.run(&mut sink, &mut watch));
@@ -95,10 +96,18 @@ fn is_superseded(outcome: &Outcome) -> bool {
 /// Publishes rows and events.
 struct Publisher<'a> {
     shared: &'a LiveState,
+    network: Option<NetworkTeller>,
     told: Instant,
 }
 
 impl Sink for Publisher<'_> {
+    fn exchanges(&mut self, exchanges: &[Exchange]) -> Result<(), RecordError> {
+        if let Some(network) = &self.network {
+            network.tell(&mut self.shared.store(), exchanges);
+        }
+        Ok(())
+    }
+
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
         self.shared.store().row(time, row);
         Ok(())
