@@ -123,6 +123,16 @@ impl Explicit {
         self.rates.row_mut(STAGES).copy_from_slice(&to.rate);
     }
 
+    /// The rates of a stage of the last step.
+    pub fn rates_of(&self, stage: usize) -> &[f64] {
+        self.rates.row(stage)
+    }
+
+    /// Puts rates in the place of those of a stage of the last step.
+    pub fn put_rates(&mut self, stage: usize, rates: &[f64]) {
+        self.rates.row_mut(stage).copy_from_slice(rates);
+    }
+
     /// Hands u(θ) − u₀ of the last step to `put`, component by component.
     pub fn interpolate(&self, from: &Point, to: &Point, h: f64, theta: f64, mut put: impl FnMut(usize, f64)) {
         let weights = interpolation_weights(theta);

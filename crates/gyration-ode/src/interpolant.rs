@@ -177,6 +177,11 @@ const DENSE: [(usize, [f64; 7]); 14] = [
     ),
 ];
 
+/// The stages whose rates it has a part for.
+pub(crate) fn interpolated_stages() -> impl Iterator<Item = usize> {
+    DENSE.iter().map(|(stage, _)| *stage)
+}
+
 /// The weights θ(1 − θ) r_j(θ) of the rates, by Horner's rule.
 pub(crate) fn interpolation_weights(theta: f64) -> [(usize, f64); DENSE.len()] {
     let bubble = theta * (1.0 - theta);

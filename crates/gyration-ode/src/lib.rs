@@ -9,7 +9,7 @@
 //! | to read | file |
 //! |---|---|
 //! | what a system must say | `system` |
-//! | one accepted step | `integrator`, `step`, `scratch` |
+//! | one accepted step | `integrator`, `step`, `scratch`, `last_step` |
 //! | Prince's pair 9(7) | `explicit`, `prince`, `interpolant`, `combination` |
 //! | Radau IIA | `implicit`, `newton`, `radau`, `stages`, `linear_system` |
 //! | which blocks couple | `layout`, the crate `gyration-blocks` |
@@ -35,6 +35,7 @@ mod factor;
 mod implicit;
 mod integrator;
 mod interpolant;
+mod last_step;
 mod layout;
 mod linear_system;
 mod memory;

@@ -1,7 +1,7 @@
 //! A run continued from its checkpoint, and a run that is sampled, make the steps of a plain run to the last bit.
 
 use crate::common::{self, Problem, barrier, kepler, perihelion, with};
-use gyration_ode::{ImplicitOrder, Integrator, Memory, MemoryError, Method, Options, Stepper};
+use gyration_ode::{ImplicitOrder, Integrator, Limit, Memory, MemoryError, Method, Options, StepReport, Stepper};
 
 /// Every stepper, and the choice.
 fn all() -> [Options; 5] {
@@ -52,6 +52,48 @@ fn resuming_at_every_step_changes_no_bit() {
             assert!(steppers.contains(&Stepper::Explicit) && steppers.contains(&Stepper::Implicit));
         }
     }
+}
+
+/// Whoever is told checkpoint and last step sees what lies within it, and goes on from there.
+#[test]
+fn a_step_that_somebody_else_made_is_seen_within_to_the_last_bit() {
+    for options in all() {
+        let (mut problem, start, end) = drop_to_rest();
+        let end = if options.method == Method::Explicit { 4.0 } else { end };
+        let fresh = || Integrator::new(0.0, &start, &[0.0, 0.0], options);
+        let (plain, _) = follow(&mut problem, fresh(), end, |_, integrator| integrator);
+        let (told, _) = follow(&mut problem, fresh(), end, |_, integrator| {
+            let (memory, last_step) = (integrator.memory(), integrator.last_step_numbers());
+            let told = Integrator::resume_within(&memory, &last_step, options).unwrap();
+            let (a, b) = integrator.last_step().unwrap();
+            assert_eq!(told.last_step(), Some((a, b)));
+            for part in [0.0, 0.3, 0.9, 1.0] {
+                let within = |integrator: &Integrator| {
+                    let (mut y, mut w) = ([0.0; 2], [0.0; 2]);
+                    integrator.interpolate(a + part * (b - a), &mut y, &mut w);
+                    [y, w].as_flattened().iter().map(|value| value.to_bits()).collect::<Vec<_>>()
+                };
+                assert_eq!(within(&told), within(&integrator), "{options:?}, {part} of {a} to {b}");
+            }
+            for cut in [1, 2, last_step.len() - 1] {
+                assert!(Integrator::resume_within(&memory, &last_step[..cut], options).is_err());
+            }
+            told
+        });
+        assert_eq!(bits(&plain.memory()), bits(&told.memory()), "{options:?}");
+    }
+}
+
+/// What is said of a step is the same once it has been numbers.
+#[test]
+fn a_report_of_a_step_is_made_of_its_numbers() {
+    let limits =
+        [Limit::Error { component: 3 }, Limit::Stability, Limit::Domain, Limit::Newton, Limit::MaxStep, Limit::End];
+    for (limit, stepper) in limits.into_iter().zip([Stepper::Explicit, Stepper::Implicit].into_iter().cycle()) {
+        let report = StepReport { start: 0.1, end: 0.3, stepper, limit, error: 0.7, projection: 1e-17, rejections: 2 };
+        assert_eq!(StepReport::of_numbers(report.numbers()), Some(report));
+    }
+    assert_eq!(StepReport::of_numbers([9; 8]), None);
 }
 
 #[test]
