@@ -46,7 +46,7 @@ pub use first_steps::{FirstSteps, MomentumChange};
 pub use network::{Push, network};
 pub use outcome::{Outcome, Reason, Stop, limit_in_words};
 pub use plan::{RestCriterion, RunPlan};
-pub use ports::{Monitor, Progress, RunError, Sink, WindowEnd};
+pub use ports::{Communicator, Monitor, Progress, RunError, Sink, WindowEnd};
 pub use record::pairs::entries;
 pub use record::{BegunRun, Job, MemorySink, Provenance, RecordingEnd, Unwatched, differences, pairs_csv};
 pub use resistance::{complete, completed, open, open_at_rest};

@@ -98,14 +98,19 @@ impl Outcome {
     }
 }
 
+impl From<Interrupted> for Reason {
+    fn from(interrupted: Interrupted) -> Self {
+        match interrupted {
+            Interrupted::Overdue => Self::WallTime,
+            Interrupted::Raised => Self::Interrupted,
+        }
+    }
+}
+
 impl Stop {
     /// A stop because of the interruption in force.
     pub fn by_interruption(time: f64) -> Self {
-        let reason = match Interruption::due() {
-            Some(Interrupted::Overdue) => Reason::WallTime,
-            _ => Reason::Interrupted,
-        };
-        Self::by_request(time, reason)
+        Self::by_request(time, Interruption::due().map_or(Reason::Interrupted, Reason::from))
     }
 
     /// A stop for reasons outside the physics.

@@ -8,6 +8,7 @@ use gyration::state::State;
 use gyration_ode::{MemoryError, Statistics, StepReport};
 use gyration_record::RecordError;
 use std::path::PathBuf;
+use std::{fmt, io};
 
 /// Where rows, events and checkpoints go; what is left out goes nowhere.
 pub trait Sink {
@@ -97,6 +98,29 @@ pub struct Progress<'a> {
     pub model: &'a Model,
 }
 
+/// The processes that share out a run: its ranks, counted from zero, and how they tell one another bytes.
+///
+/// Ranks call [`Communicator::all_gather`] equally often and in the same order, each time with bytes of any length.
+pub trait Communicator: fmt::Debug + Send + Sync {
+    /// The number of this rank.
+    fn rank(&self) -> usize;
+
+    /// How many there are.
+    fn size(&self) -> usize;
+
+    /// Tells all ranks some bytes, and waits for theirs: those of each rank, in order, its own among them.
+    ///
+    /// # Errors
+    /// Whatever keeps them from being told or heard: the run then ends.
+    fn all_gather(&self, own: Vec<u8>) -> io::Result<Vec<Vec<u8>>>;
+
+    /// From how many islands a rank on these are shared out. A step of a ball takes some ten microseconds, and so does
+    /// a message within a machine.
+    fn least_share(&self) -> usize {
+        16
+    }
+}
+
 /// Why a run could not begin, or its recording not go on.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
@@ -116,6 +140,9 @@ pub enum RunError {
     /// The recording failed.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// The ranks of the run cannot go on together.
+    #[error("the ranks of this run cannot go on together: {0}\n  fix: give all of them one scene and one program")]
+    Ranks(String),
     /// The recording to be resumed is of another scene.
     #[error(
         "{} is a recording of another scene:\n  {what}\n  fix: {fix}; else give another -o, or --force to overwrite it",

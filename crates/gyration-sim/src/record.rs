@@ -8,17 +8,19 @@
 mod describe;
 mod differences;
 pub(crate) mod pairs;
+mod ranks;
 pub(crate) mod surfaces;
 
 use self::describe::{describe_solid_support, describe_support, sum_of_places};
 pub use self::differences::differences;
 pub use self::pairs::pairs_csv;
+use self::ranks::Nowhere;
 use self::surfaces::Surfaces;
 use crate::events::{EVENT_KINDS, Event};
 use crate::outcome::{Outcome, Reason};
 use crate::period::period;
 use crate::plan::RunPlan;
-use crate::ports::{Monitor, Progress, RunError, Sink, WindowEnd};
+use crate::ports::{Communicator, Monitor, Progress, RunError, Sink, WindowEnd};
 use crate::rows::Fields;
 use crate::run::Simulation;
 use crate::summary::RunSummary;
@@ -32,6 +34,7 @@ use gyration_scene::{Built, Scene};
 use gyration_threads::Interruption;
 use serde_json::{Value, json};
 use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Wall time between flushes; the contract asks for one a second at least. A flush of 8 MiB of chunks takes 0.03 s.
@@ -51,6 +54,8 @@ pub struct Job<'a> {
     pub plan: RunPlan,
     /// How long it may take; the recording can be resumed after that.
     pub max_wall_time: Option<Duration>,
+    /// The processes that share it out, if there are several; the first of them records.
+    ranks: Option<Arc<dyn Communicator>>,
     /// What it was made from.
     scene: &'a Scene,
     /// Which program runs it.
@@ -91,6 +96,7 @@ impl<'a> Job<'a> {
             start: state,
             plan: RunPlan::alone(scene.built()),
             max_wall_time: plan.wall_time(),
+            ranks: None,
             scene,
             provenance: provenance.clone(),
         }
@@ -125,7 +131,14 @@ impl<'a> Job<'a> {
     /// # Errors
     /// [`RunError`].
     pub fn record(&self, path: &Path, watch: &mut dyn Monitor) -> Result<RecordingEnd, RunError> {
-        self.interruption().within(|| self.begun()?.record_in_time(path, watch))
+        self.interruption().within(|| {
+            if self.follows() {
+                let mut simulation = self.shared_out(Simulation::new(self.model, self.start, self.plan)?);
+                simulation.begin(&mut Nowhere)?;
+                return self.follow(simulation, watch);
+            }
+            self.begun()?.record_in_time(path, watch)
+        })
     }
 
     /// The run at its start, of which nothing is on disk yet.
@@ -133,7 +146,7 @@ impl<'a> Job<'a> {
     /// # Errors
     /// [`RunError`] if the start is outside the model.
     pub fn begun(&self) -> Result<BegunRun<'a>, RunError> {
-        let mut simulation = Simulation::new(self.model, self.start, self.plan)?;
+        let mut simulation = self.shared_out(Simulation::new(self.model, self.start, self.plan)?);
         let mut first = MemorySink::default();
         simulation.begin(&mut first)?;
         Ok(BegunRun { job: self.clone(), simulation, first })
@@ -145,7 +158,8 @@ impl<'a> Job<'a> {
     /// [`RecordError`] if it cannot be written there.
     pub(crate) fn begin_by_hand(&self, model: &Model, path: &Path) -> Result<RecordingSink, RecordError> {
         let Self { start, plan, max_wall_time, scene, .. } = *self;
-        let job = Job { model, start, plan, max_wall_time, scene, provenance: self.provenance.clone() };
+        let provenance = self.provenance.clone();
+        let job = Job { model, start, plan, max_wall_time, ranks: None, scene, provenance };
         let writer = Writer::create(path, &job.layout(), job.all_attributes())?;
         Ok(RecordingSink::new(model.clone(), writer, RowHash::default()))
     }
@@ -160,6 +174,9 @@ impl<'a> Job<'a> {
     /// # Errors
     /// [`RunError`]; `OtherScene` if the recording is of another scene.
     pub fn resume(&self, path: &Path, watch: &mut dyn Monitor) -> Result<RecordingEnd, RunError> {
+        if self.follows() {
+            return self.follow_from_checkpoint(watch);
+        }
         let recording = Recording::open(path)?;
         let recorded = recording.attributes().clone();
         if !self.is_recorded_in(&recorded) {
@@ -168,13 +185,16 @@ impl<'a> Job<'a> {
         let is_complete = recorded.contains_key("outcome");
         // A checkpoint that is damaged is needed no more.
         if is_complete && !recording.is_ahead_of_its_checkpoint().unwrap_or(false) {
+            self.tell_checkpoint(&[])?;
             return Ok(RecordingEnd::AlreadyFinished(recorded));
         }
         let resumed = Writer::resume_finished(path, &RunSummary::ATTRIBUTES)?;
         // Once more, now that nobody else writes.
         let hash = RowHash::of_recording(&Recording::open(path)?, resumed.rows)?;
+        self.tell_checkpoint(&resumed.checkpoint)?;
         self.interruption().within(|| {
             let simulation = Simulation::resume(self.model, self.start, self.plan, &resumed.checkpoint)?;
+            let simulation = self.shared_out(simulation);
             let sink = RecordingSink::new(self.model.clone(), resumed.writer, hash);
             self.finish(path, simulation, sink, watch)
         })

@@ -111,17 +111,8 @@ impl RunState {
         let reals = [&reals[..], &self.sampled_impulses].concat();
         list(&mut reals.iter().map(|real| real.to_bits()));
         self.settled.write(&mut list);
-        for IslandMemory { members, state, stepper } in islands {
-            list(&mut members.iter().map(|body| *body as u64));
-            let peaks: Vec<u64> = state.peaks.bits().collect();
-            list(&mut [&[u64::from(state.is_parting)][..], &peaks].concat().into_iter());
-            let [first, second] = state.largest_gains;
-            let reals = [[state.slow_since, state.largest_projection, first], state.in_play.numbers()];
-            let reals = [reals.as_flattened(), &[second]].concat();
-            list(&mut reals.iter().map(|real| real.to_bits()));
-            list(&mut state.signals.as_flattened().iter().map(|real| real.to_bits()));
-            list(&mut stepper.integers.iter().copied());
-            list(&mut stepper.reals.iter().map(|real| real.to_bits()));
+        for island in islands {
+            island.write(&mut list);
         }
         bytes
     }
@@ -207,7 +198,23 @@ impl IslandMemory {
         integrator.remember(&mut self.stepper);
     }
 
-    fn read(rest: &mut &[u8]) -> Option<Self> {
+    /// Hands its numbers to `list`, one list after the other.
+    pub fn write(&self, list: &mut impl FnMut(&mut dyn ExactSizeIterator<Item = u64>)) {
+        let Self { members, state, stepper } = self;
+        list(&mut members.iter().map(|body| *body as u64));
+        let peaks: Vec<u64> = state.peaks.bits().collect();
+        list(&mut [&[u64::from(state.is_parting)][..], &peaks].concat().into_iter());
+        let [first, second] = state.largest_gains;
+        let reals = [[state.slow_since, state.largest_projection, first], state.in_play.numbers()];
+        let reals = [reals.as_flattened(), &[second]].concat();
+        list(&mut reals.iter().map(|real| real.to_bits()));
+        list(&mut state.signals.as_flattened().iter().map(|real| real.to_bits()));
+        list(&mut stepper.integers.iter().copied());
+        list(&mut stepper.reals.iter().map(|real| real.to_bits()));
+    }
+
+    /// Reads what [`IslandMemory::write`] has handed out; `None` if it is not that.
+    pub fn read(rest: &mut &[u8]) -> Option<Self> {
         let members = list(rest)?.into_iter().map(usize::try_from).collect::<Result<_, _>>().ok()?;
         let integers = list(rest)?;
         let (is_parting, peaks) = integers.split_first()?;

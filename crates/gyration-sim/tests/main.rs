@@ -29,6 +29,7 @@ mod partings;
 mod pressed;
 mod random;
 mod random_scenes;
+mod ranks;
 mod remarks;
 mod replay;
 mod resumption;

@@ -68,7 +68,7 @@ fn names_something(error: &RunError) -> bool {
     match error {
         RunError::Start(stop) | RunError::Interrupted(stop) => !stop.what.is_empty() && !stop.advice.is_empty(),
         RunError::Checkpoint(what) => !what.is_empty(),
-        RunError::Flushing | RunError::Record(_) | RunError::OtherScene { .. } => false,
+        RunError::Flushing | RunError::Record(_) | RunError::Ranks(_) | RunError::OtherScene { .. } => false,
     }
 }
 

@@ -13,6 +13,7 @@ mod half_turns;
 pub(crate) mod horizon;
 mod merging;
 mod noting;
+mod pack;
 mod pair_approach;
 mod path_bound;
 mod paths;
@@ -201,11 +202,14 @@ impl Island {
     pub fn memory(&self) -> IslandMemory {
         match &self.restart_point {
             Some(restart_point) => restart_point.kept().clone(),
-            None => {
-                let (members, state) = (self.members.clone(), self.state.clone());
-                IslandMemory { members, state, stepper: self.integrator.memory() }
-            }
+            None => self.memory_now(),
         }
+    }
+
+    /// Its memory where it stands.
+    fn memory_now(&self) -> IslandMemory {
+        let (members, state) = (self.members.clone(), self.state.clone());
+        IslandMemory { members, state, stepper: self.integrator.memory() }
     }
 
     /// Goes on from a memory, up to the time that the run had come to; its events until then are known.
@@ -233,14 +237,7 @@ impl Island {
     /// # Errors
     /// [`MemoryError`] if it is not one of this island.
     pub fn restore(&mut self, memory: &IslandMemory, plan: &RunPlan) -> Result<(), MemoryError> {
-        let (numbers, works) = (self.integrator.state().len(), self.integrator.quadratures().len());
-        let integrator = Integrator::resume(&memory.stepper, plan.options)?;
-        let fits = integrator.state().len() == numbers && integrator.quadratures().len() == works;
-        if !fits || memory.state.signals.len() != self.members.len() {
-            let Memory { integers, reals } = &memory.stepper;
-            return Err(MemoryError::Length { integers: integers.len(), reals: reals.len() });
-        }
-        self.integrator = integrator;
+        self.integrator = self.integrator_of(memory, &[], plan)?;
         self.state.clone_from(&memory.state);
         self.last_step = None;
         self.effort.forget();
@@ -252,6 +249,23 @@ impl Island {
         self.stop = None;
         self.read_step_end();
         Ok(())
+    }
+
+    /// The integrator of a memory, with the last step of which these are the numbers.
+    fn integrator_of(
+        &self,
+        memory: &IslandMemory,
+        last_step: &[f64],
+        plan: &RunPlan,
+    ) -> Result<Integrator, MemoryError> {
+        let (numbers, works) = (self.integrator.state().len(), self.integrator.quadratures().len());
+        let integrator = Integrator::resume_within(&memory.stepper, last_step, plan.options)?;
+        let fits = integrator.state().len() == numbers && integrator.quadratures().len() == works;
+        if !fits || memory.state.signals.len() != self.members.len() {
+            let Memory { integers, reals } = &memory.stepper;
+            return Err(MemoryError::Length { integers: integers.len(), reals: reals.len() });
+        }
+        Ok(integrator)
     }
 
     /// Whether threads that share out its pairs and bodies among them have enough to do.
@@ -404,7 +418,7 @@ impl Island {
     }
 
     /// Reads the bodies at the end of the last step, or at the start.
-    fn read_step_end(&mut self) {
+    pub fn read_step_end(&mut self) {
         let started = self.integrator.next_size() != 0.0;
         let rates = if started { self.integrator.rates().0 } else { self.system.first_rates() };
         step_end::read(&mut self.step_ends, self.system.model(), self.integrator.state(), rates);

@@ -28,6 +28,9 @@ const DEGREE: usize = 8;
 /// Into how many equal parts a step is cut by the places through which a bound is laid, and one more.
 pub(crate) const NODES: usize = DEGREE + 1;
 
+/// How many numbers a bound has.
+pub(crate) const NUMBERS: usize = 19;
+
 /// Where a rigid body is at one time of a step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Node {
@@ -89,6 +92,22 @@ impl PathBound {
             orientation: at.motion.placement.gradient,
             swing: (at.motion.angular_velocity().norm() * time).min(2.0),
         }
+    }
+
+    /// Its numbers.
+    pub fn numbers(&self) -> [f64; NUMBERS] {
+        let Self { start, end, from, to, deviation, orientation, swing } = self;
+        let mut numbers = [0.0; NUMBERS];
+        let all = [start, end, deviation, swing].into_iter().chain(from).chain(to).chain(orientation);
+        numbers.iter_mut().zip(all).for_each(|(number, own)| *number = *own);
+        numbers
+    }
+
+    /// From its numbers.
+    pub fn of_numbers(numbers: [f64; NUMBERS]) -> Self {
+        let ([start, end, deviation, swing], places) = (numbers[..4].try_into().unwrap_or_default(), &numbers[4..]);
+        let (from, to) = (Vec3::from_column_slice(&places[..3]), Vec3::from_column_slice(&places[3..6]));
+        Self { start, end, from, to, deviation, orientation: Mat3::from_column_slice(&places[6..]), swing }
     }
 
     /// The times of the places through which a bound is laid [s].

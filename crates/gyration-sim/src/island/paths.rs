@@ -24,6 +24,27 @@ impl Paths {
         &self.bounds[place]
     }
 
+    /// The numbers of all bounds, body by body.
+    pub fn numbers(&self) -> Vec<f64> {
+        self.bounds.iter().flatten().flat_map(PathBound::numbers).collect()
+    }
+
+    /// Becomes paths of the same bodies with these numbers, of whose last steps so many are new; none where the numbers
+    /// are not those of bounds.
+    pub fn become_those_of(&mut self, numbers: &[f64], unseen: usize) -> Option<()> {
+        let (bounds, []) = numbers.as_chunks() else { return None };
+        let steps = bounds.len() / self.bounds.len();
+        if steps * self.bounds.len() != bounds.len() || unseen > steps {
+            return None;
+        }
+        for (body, own) in self.bounds.iter_mut().enumerate() {
+            own.clear();
+            own.extend(bounds[body * steps..(body + 1) * steps].iter().map(|numbers| PathBound::of_numbers(*numbers)));
+        }
+        self.unseen = unseen;
+        Some(())
+    }
+
     /// Where each step begins [s].
     pub fn beginnings(&self) -> impl Iterator<Item = f64> {
         self.bounds.first().into_iter().flatten().map(|bound| bound.start)

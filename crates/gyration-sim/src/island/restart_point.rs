@@ -30,6 +30,16 @@ impl RestartPoint {
         &self.kept
     }
 
+    /// That of a commit to come, if it is not the one that is kept.
+    pub fn latest(&self) -> Option<&IslandMemory> {
+        self.is_newer.then_some(&self.latest)
+    }
+
+    /// Puts a memory in its place.
+    pub fn put_latest(&mut self, latest: IslandMemory) {
+        (self.latest, self.is_newer) = (latest, true);
+    }
+
     /// Before a step towards a time.
     pub fn before_step(&mut self, state: &IslandState, integrator: &Integrator, until: f64) {
         if integrator.next_size() >= MAY_PASS * (until - integrator.time()) {

@@ -19,6 +19,7 @@ mod control;
 mod islands;
 mod meeting;
 mod partition;
+mod ranks;
 mod samples;
 mod window;
 
@@ -42,6 +43,7 @@ use gyration::state::State;
 use gyration_ode::Statistics;
 use gyration_threads::Interruption;
 use partition::{Partition, always_coupled, may_be_islands};
+use ranks::Ranks;
 use window::WindowWidth;
 
 /// A run under way.
@@ -72,6 +74,8 @@ pub struct Simulation {
     found: Vec<Event>,
     /// Whether an interruption came within a step.
     is_broken: bool,
+    /// The processes that share it out, if there are several.
+    ranks: Option<Ranks>,
 }
 
 impl Simulation {
@@ -120,6 +124,7 @@ impl Simulation {
             portion: f64::INFINITY,
             found: Vec::new(),
             is_broken: false,
+            ranks: None,
             model: model.clone(),
             plan,
         })
@@ -258,11 +263,20 @@ impl Simulation {
     /// Steps until the end, rest, or a stop, and records the last row.
     ///
     /// # Errors
-    /// [`RunError::Record`] if the recording fails.
+    /// [`RunError::Record`] if the recording fails; [`RunError::Ranks`] if there are several ranks and they come apart.
     pub fn run(&mut self, sink: &mut dyn Sink, monitor: &mut dyn Monitor) -> Result<Outcome, RunError> {
+        if self.ranks.is_none() {
+            return self.run_to_end(sink, monitor);
+        }
+        self.meet_ranks(sink, monitor)?;
+        // None stops by itself: all of them are asked.
+        Interruption::default().within(|| self.run_to_end(sink, monitor))
+    }
+
+    fn run_to_end(&mut self, sink: &mut dyn Sink, monitor: &mut dyn Monitor) -> Result<Outcome, RunError> {
         loop {
             // Whoever counts steps is asked behind whole ones.
-            if !monitor.counts_steps() {
+            if !self.is_by_steps(monitor) {
                 self.portion();
             }
             if let Some(outcome) = self.advance(sink, monitor)? {
@@ -299,8 +313,7 @@ impl Simulation {
         }
         sink.window_end(&*self)?;
         let time = self.state.time;
-        let asked = self.ask(monitor).map(|reason| Stop::by_request(time, reason));
-        let asked = asked.or_else(|| Interruption::due().map(|_| Stop::by_interruption(time)));
+        let asked = self.asked(time, monitor)?;
         Ok(asked.filter(|_| time < end).map(Outcome::Stopped))
     }
 

@@ -88,11 +88,11 @@ impl Simulation {
         monitor: &mut dyn Monitor,
     ) -> Result<Result<(), Stop>, RunError> {
         let before = self.state.time;
-        let wanted = self.window_end(sink.wants_event_rows() || monitor.counts_steps());
+        let wanted = self.window_end(sink.wants_event_rows() || self.is_by_steps(monitor));
         let mut until = wanted;
         let (mut stop, mut rounds) = (None, 0);
         loop {
-            self.reach(until, MOST_STEPS);
+            self.reach(until, MOST_STEPS)?;
             if self.partition.islands.iter().any(|island| island.system.was_interrupted()) {
                 self.is_broken = true;
                 return Ok(Err(Stop::by_interruption(before)));
@@ -119,8 +119,7 @@ impl Simulation {
             if time >= until {
                 break;
             }
-            let asked = self.ask(monitor).map(|reason| Stop::by_request(time, reason));
-            let asked = asked.or_else(|| Interruption::due().map(|_| Stop::by_interruption(time)));
+            let asked = self.asked(time, monitor)?;
             if asked.is_some() {
                 stop = asked;
                 break;
@@ -132,7 +131,7 @@ impl Simulation {
         }
         let reached = until.min(self.least_time());
         if stop.is_some() || reached < until {
-            self.go_back(reached);
+            self.go_back(reached)?;
         }
         let reached = self.window_reached(until);
         self.commit(reached);
@@ -158,17 +157,29 @@ impl Simulation {
         if until > time { until } else { time.next_up() }
     }
 
-    /// Lets all islands come to a time, or make so many steps towards it, all together.
-    fn reach(&mut self, until: f64, most: u64) {
-        let is_step = self.is_step(until);
-        let team = self.plan.team();
+    /// Lets all islands come to a time, or make so many steps towards it, all together; on several ranks each does a
+    /// share of that.
+    fn reach(&mut self, until: f64, most: u64) -> Result<(), RunError> {
         if let Some(only) = self.partition.islands.only() {
-            return only.reach_with(team, until, most, &self.plan);
+            only.reach_with(self.plan.team(), until, most, &self.plan);
+            return Ok(());
         }
-        let (plan, shared, threads) = (&self.plan, &self.shared, self.plan.threads.unwrap_or(NonZeroUsize::MIN));
         let count = self.partition.islands.iter().filter(|island| island.time() < until).count();
         let most = (most / count.max(1) as u64).max(1);
-        let behind = self.partition.islands.iter_mut().filter(|island| island.time() < until);
+        let Some(shares) = self.shares(until).filter(|_| !self.is_step(until)) else {
+            self.reach_of(|_| true, count, until, most);
+            return Ok(());
+        };
+        let own = &shares[self.rank()];
+        self.reach_of(|island| own.binary_search(&island.first_body()).is_ok(), own.len(), until, most);
+        self.exchange(&shares)
+    }
+
+    /// The same for some of those that are behind the time, so many, each by itself.
+    fn reach_of(&mut self, is_own: impl Fn(&Island) -> bool, count: usize, until: f64, most: u64) {
+        let (is_step, team) = (self.is_step(until), self.plan.team());
+        let (plan, shared, threads) = (&self.plan, &self.shared, self.plan.threads.unwrap_or(NonZeroUsize::MIN));
+        let behind = self.partition.islands.iter_mut().filter(|island| island.time() < until && is_own(island));
         if threads.get() == 1 || count == 1 || is_step {
             return shared.with_scratch(behind, |island| island.reach_with(team, until, most, plan));
         }
@@ -260,12 +271,12 @@ impl Simulation {
     }
 
     /// Undoes what islands have done in this window beyond the step that reaches a time to which all have come.
-    fn go_back(&mut self, time: f64) {
+    fn go_back(&mut self, time: f64) -> Result<(), RunError> {
         for island in self.partition.islands.iter_mut().filter(|island| island.time() > time) {
             island.go_back(&self.plan, self.state.time);
         }
         // They have been there once.
-        Interruption::default().within(|| self.reach(time, u64::MAX));
+        Interruption::default().within(|| self.reach(time, u64::MAX))
     }
 
     /// Whether a window that goes until a time is one step of the islands that have come least far.
