@@ -2,13 +2,13 @@
 //! they had been recorded.
 
 use crate::error::ViewError;
-use crate::stored::described;
 use gyration::dynamics::ContactParts;
 use gyration_page::besides::{deforms, has_network, has_parts};
 use gyration_page::blob;
 use gyration_page::header::{ArrayEntry, Header};
 use gyration_record::Recording;
 use gyration_sim::replay::Replay;
+use serde_json::Value;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -53,6 +53,11 @@ impl Shown {
             dims: dims.collect(),
         }
     }
+}
+
+/// What a header tells of each of some things.
+pub(crate) fn described<'a>(header: &'a Header, name: &str) -> &'a [Value] {
+    header.attributes.get(name).and_then(Value::as_array).map_or(&[], Vec::as_slice)
 }
 
 /// Arrays of a recording that are computed.

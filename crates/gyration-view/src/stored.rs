@@ -1,12 +1,11 @@
 //! A recording on disk as the page sees it: its header, and its arrays by name.
 
-use crate::computed::Computed;
+use crate::computed::{Computed, described};
 use crate::error::ViewError;
 use gyration_page::blob;
 use gyration_page::header::Header;
 use gyration_record::{RecordError, Recording};
 use gyration_scene::Scene;
-use serde_json::Value;
 use std::ops::Range;
 use std::path::Path;
 
@@ -131,11 +130,6 @@ impl Stored {
 fn may_lack(header: &Header) -> bool {
     let bodies = described(header, "bodies");
     bodies.iter().any(|body| body["kind"] != "rigid") || bodies.len() > 1 || described(header, "supports").len() > 1
-}
-
-/// What a header tells of each of some things.
-pub(crate) fn described<'a>(header: &'a Header, name: &str) -> &'a [Value] {
-    header.attributes.get(name).and_then(Value::as_array).map_or(&[], Vec::as_slice)
 }
 
 /// The rows that are kept of a range: one in `every`, and the last.
