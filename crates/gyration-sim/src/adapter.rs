@@ -43,7 +43,7 @@ pub struct ModelSystem {
     /// The sets of bodies that may act on one another.
     components: Components,
     pattern: BodyPattern,
-    workspace: Workspace,
+    workspace: OwnWorkspace,
     tolerance: Tolerance,
     speeds: Vec<f64>,
     /// √(Σk/m) of the springs at each body [1/s].
@@ -58,6 +58,16 @@ pub struct ModelSystem {
     impulses: Option<Box<State>>,
     /// Whether something was asked for that was given up.
     interrupted: bool,
+}
+
+/// Scratch of the mechanics that is made when it is first needed: most islands are lent one.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct OwnWorkspace(Option<Box<Workspace>>);
+
+impl OwnWorkspace {
+    fn get(&mut self) -> &mut Workspace {
+        self.0.get_or_insert_default()
+    }
 }
 
 impl ModelSystem {
@@ -95,8 +105,7 @@ impl ModelSystem {
         let frequencies = (0..model.bodies.len()).map(|body| spring_frequency(&model, body)).collect();
         let inertialess = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
         let viscous = inertialess.map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
-        // One of its own, if it needs one: most are lent one.
-        let workspace = Workspace::default();
+        let workspace = OwnWorkspace::default();
         let components = Components::joined(model.bodies.len(), model.chain());
         let pattern = BodyPattern::of(&model);
         Self {
@@ -132,7 +141,7 @@ impl ModelSystem {
         state.bodies.copy_from_slice(y.high);
         state.low.clear();
         state.low.extend_from_slice(y.low);
-        let (instant, scratch) = workspace.read(model, state)?;
+        let (instant, scratch) = workspace.get().read(model, state)?;
         for (index, force) in forces.as_chunks_mut::<3>().0.iter_mut().enumerate() {
             *force = acting(&instant.at(index), scratch)?.contact.force.into();
         }
@@ -142,7 +151,7 @@ impl ModelSystem {
     /// Rates, powers of the works and, behind them, contact forces.
     fn all_rates(&mut self, t: f64, y: Numbers, dy: &mut [f64], dw: &mut [f64]) -> Result<(), Inadmissible> {
         let (powers, forces) = dw.split_at_mut(self.model.works().len());
-        let found = rates(&self.model, &mut self.workspace, t, y, dy, powers);
+        let found = rates(&self.model, self.workspace.get(), t, y, dy, powers);
         let found = found.and_then(|()| self.contact_forces(t, y, forces));
         self.noted(found)
     }
@@ -169,22 +178,23 @@ impl ModelSystem {
 
     /// The model and the scratch of its mechanics, for observations between steps.
     pub fn observed(&mut self) -> (&Model, &mut Workspace) {
-        (&self.model, &mut self.workspace)
+        (&self.model, self.workspace.get())
     }
 
     /// The slabs between bodies at the end of the last step; none where no plane was found there.
     pub(crate) fn step_end_gaps(&self) -> Option<&PairGaps> {
-        self.workspace.remembered_gaps()
+        self.workspace.0.as_ref()?.remembered_gaps()
     }
 
     /// The slabs between bodies at a time and state, beside the system; none where no plane is found.
     pub(crate) fn gaps_at(&mut self, time: f64, bodies: &[f64]) -> (&Self, Option<&PairGaps>) {
-        let is_known = self.workspace.pair_gaps(&self.model, time, bodies.into()).is_ok();
-        (self, is_known.then(|| self.workspace.found_gaps()))
+        let is_known = self.workspace.get().pair_gaps(&self.model, time, bodies.into()).is_ok();
+        let found = self.workspace.0.as_ref().filter(|_| is_known).map(|workspace| workspace.found_gaps());
+        (self, found)
     }
 
     /// Puts scratch of the mechanics in the place of its own.
-    pub(crate) fn exchange_workspace(&mut self, workspace: &mut Workspace) {
+    pub(crate) fn exchange_workspace(&mut self, workspace: &mut OwnWorkspace) {
         std::mem::swap(&mut self.workspace, workspace);
     }
 
@@ -314,14 +324,14 @@ impl System for ModelSystem {
     fn extended_jacobian(&mut self, t: f64, y: Extended, slopes: &mut BlockMatrix) -> Result<(), Inadmissible> {
         let numbers = Numbers { high: y.high, low: y.low };
         let mut written = Written { matrix: slopes, pattern: &mut self.pattern };
-        let found = jacobian(&self.model, &mut self.workspace, t, numbers, &mut written);
+        let found = jacobian(&self.model, self.workspace.get(), t, numbers, &mut written);
         self.noted(found)
     }
 
     fn error_scales(&mut self, t: f64, y: &[f64], _w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]) {
         let (rtol, atol) = (SHARE * self.tolerance.rtol, SHARE * self.tolerance.atol);
         let mut energy = self.energy;
-        let gaps = self.workspace.pair_gaps(&self.model, t, y.into()).ok();
+        let gaps = self.workspace.get().pair_gaps(&self.model, t, y.into()).ok();
         for (index, body) in self.model.bodies.iter().enumerate() {
             let slots = self.model.slots(index);
             let motion = BodyMotion::read(body, slots, y);
@@ -373,6 +383,6 @@ impl System for ModelSystem {
     }
 
     fn extended_project(&mut self, t: f64, y: ExtendedMut, w: &mut [f64]) -> f64 {
-        project(&self.model, &mut self.workspace, t, y, w)
+        project(&self.model, self.workspace.get(), t, y, w)
     }
 }

@@ -3,8 +3,8 @@
 //! The matrices of an implicit step and the workspace of the mechanics would be two thirds of the memory of a body. On
 //! each thread one island steps at a time, and what it is lent leaves no trace in any number.
 
+use crate::adapter::OwnWorkspace;
 use crate::island::Island;
-use gyration::dynamics::Workspace;
 use gyration_ode::Scratch;
 use std::sync::{Mutex, PoisonError};
 
@@ -12,7 +12,7 @@ use std::sync::{Mutex, PoisonError};
 #[derive(Default)]
 struct Pooled {
     stepper: Scratch,
-    workspace: Workspace,
+    workspace: OwnWorkspace,
 }
 
 /// As much scratch as there are threads that have asked for it at once.

@@ -60,6 +60,8 @@ impl StepEnd {
 /// Reads all bodies at the end of a step, or at the start.
 pub(crate) fn read(ends: &mut Vec<StepEnd>, model: &Model, state: &[f64], rates: &[f64]) {
     ends.clear();
+    // One of a single body has room for no more.
+    ends.reserve_exact(model.bodies.len());
     ends.extend((0..model.bodies.len()).map(|index| StepEnd::of(model, index, state, rates)));
 }
 
