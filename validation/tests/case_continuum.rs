@@ -157,6 +157,33 @@ fn face_centred_springs_are_a_cubic_solid() {
 }
 
 #[test]
+fn a_net_under_tension_holds_its_stress_in_its_waves() {
+    let case = Case {
+        row: None,
+        name: "continuum of a triangular net under tension T = ta",
+        source: "B = 2/√3 [⅜(k − t)(δ_ij δ_ab + δ_ia δ_jb + δ_ib δ_ja) + (3/2)t δ_ij δ_ab]",
+    };
+    let (spacing, k, tension) = (1e-3_f64, 3.0_f64, 0.6_f64);
+    let mut lattice = LatticeScene::new(&[[spacing, 0.0, 0.0], [0.5 * spacing, 0.75_f64.sqrt() * spacing, 0.0]]);
+    lattice = lattice.point("a", [0.0; 3], 1e-6);
+    for cell in [[1, 0, 0], [0, 1, 0], [1, -1, 0]] {
+        lattice = lattice.spring(Link { cell, law: [k, spacing * (1.0 - tension / k), 0.0], ..Link::default() });
+    }
+    let found = survey(&lattice.scene(), ContinuumModel::Cauchy, &[0.0, 1e-3]);
+    let (central, taut) = (0.375 * (k - tension), 1.5 * tension);
+    let factor = 2.0 / 3.0_f64.sqrt();
+    let c = &found.macroscopic;
+    case.check("C_xxxx [N/m]", factor * (3.0 * central + taut), c[0][0][0][0], TOLERANCE);
+    case.check("C_xyxy [N/m]", factor * (central + taut), c[0][1][0][1], TOLERANCE);
+    case.check("C_xxyy [N/m]", factor * (central - taut), c[0][0][1][1] + 0.0, 1e-9);
+    case.check("C_zxzx [N/m]", factor * taut, c[2][0][2][0], TOLERANCE);
+    case.check("stress [N/m]", factor * taut, found.rest.stress[0][0], TOLERANCE);
+    assert!(found.warnings.iter().any(|warning| warning.contains("under stress")), "{:?}", found.warnings);
+    assert_eq!(found.map.continuum[0], [0.0; 3], "nothing opposes a translation");
+    assert!(found.reach.iter().all(|reach| reach.wavelength.is_some_and(|length| length > 5.0 * spacing)));
+}
+
+#[test]
 fn masses_within_a_cell_follow_a_strain() {
     let case = Case { row: None, name: "continuum of two springs in turn", source: "closed form" };
     let (spacing, inner, outer) = (0.8_f64, 50.0_f64, 30.0_f64);

@@ -75,8 +75,8 @@ fn as_word<S: Serializer>(model: &ContinuumModel, serializer: S) -> Result<S::Ok
     serializer.serialize_str(model.name())
 }
 
-/// A tensor whose minor symmetry fails by more than this part of its largest entry tells of a stress.
-const ASYMMETRY: f64 = 1e-8;
+/// A stress below this part of the largest modulus is none.
+const STRESSED: f64 = 1e-8;
 
 impl ContinuumSurvey {
     /// Of the lattice of a scene, along a path as it is written or the usual one.
@@ -107,7 +107,7 @@ impl ContinuumSurvey {
         let frequencies = |row: &BandRow| row.branches.iter().map(|branch| branch.omega).collect();
         let omega: Vec<Vec<f64>> = rows_of_lattice.iter().map(frequencies).collect();
         let mut warnings = warnings_of(&waves, &rows_of_lattice);
-        warnings.extend(warnings_of_model(&continuum, model, sinks));
+        warnings.extend(warnings_of_model(&continuum, waves.rest().stress.amax(), (model, sinks)));
         let errors = |(exact, own): (&Vec<f64>, &Vec<f64>)| {
             own.iter().zip(exact).map(|(own, exact)| frequency_error(*own, *exact)).collect()
         };
@@ -146,7 +146,11 @@ fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
 }
 
 /// Supports that hold the lattice, what nothing holds, stresses, squares below zero.
-fn warnings_of_model(continuum: &Continuum, model: ContinuumModel, sinks: Option<[f64; 3]>) -> Vec<String> {
+fn warnings_of_model(
+    continuum: &Continuum,
+    stress: f64,
+    (model, sinks): (ContinuumModel, Option<[f64; 3]>),
+) -> Vec<String> {
     let mut warnings = Vec::new();
     if continuum.foundation() > 0.0 {
         warnings.push(
@@ -160,10 +164,11 @@ fn warnings_of_model(continuum: &Continuum, model: ContinuumModel, sinks: Option
         let motions = if floppy == 1 { "motion" } else { "motions" };
         warnings.push(format!("nothing holds {floppy} {motions} of the granules in the cell: they are kept beside u"));
     }
-    let uneven = continuum.asymmetry();
-    if uneven > ASYMMETRY {
+    if stress > STRESSED * continuum.stiffness() {
         warnings.push(format!(
-            "C_iajb and C_aijb differ by {uneven:.2e} of the largest modulus, since the rest state is under stress"
+            "the rest state is under stress, up to {stress:.4e} in the units of the moduli: C holds it too, as waves do, \
+             and C_iajb and C_aijb differ by {:.2e} of the largest modulus",
+            continuum.asymmetry()
         ));
     }
     if let Some([x, y, z]) = sinks {

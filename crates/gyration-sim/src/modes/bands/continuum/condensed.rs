@@ -61,11 +61,6 @@ impl Condensed {
         self.mass.view((0, 0), (3, 3)).into_owned()
     }
 
-    /// The largest ω² of α at k = 0 [1/s²].
-    pub fn stiffest(&self) -> f64 {
-        self.squares.iter().fold(0.0, |most: f64, square| most.max(square.abs()))
-    }
-
     /// D₁ of u by the axes that are eliminated, given D₁ᵃ.
     pub fn coupling(&self, first: &DMatrix<f64>) -> DMatrix<f64> {
         let whole = first.rows(0, 3) * &self.basis;

@@ -78,6 +78,8 @@ pub struct Continuum {
     macroscopic: Tensor,
     /// How much its minor symmetry fails.
     asymmetry: f64,
+    /// The largest |K| that there may be [1/s²].
+    stiffest: f64,
     relaxed: RelaxedModuli,
 }
 
@@ -95,8 +97,9 @@ pub enum NoContinuum {
     Joints,
     /// There is more than inertia and stiffness.
     #[error(
-        "a continuum is made of lattices that lose nothing: leave out damping, friction, fluid, contractions that \
-         move, and forces without a potential (`gyration bands` has their waves)"
+        "a continuum is made of lattices that lose nothing: leave out damping, friction, fluid, gyroscopic loads, \
+         contractions that move, and forces without a potential, as contacts of bodies that deform have them unless \
+         measure = \"deformed_area_potential\" (`gyration bands` has their waves)"
     )]
     Losses,
     /// The roots were not found.
@@ -154,7 +157,20 @@ impl LatticeWaves {
         let series = moduli::Series { condensed: &condensed, first: &first, second: &second };
         let relaxed = RelaxedModuli::of(&series, &span, &waves, &macroscopic, &rotation);
         let asymmetry = moduli::asymmetry(&waves, &span);
-        Ok(Continuum { motions, volume, mass, zeroth, first, second, condensed, macroscopic, asymmetry, relaxed })
+        let stiffest = self.system.stiffest;
+        Ok(Continuum {
+            motions,
+            volume,
+            mass,
+            zeroth,
+            first,
+            second,
+            condensed,
+            macroscopic,
+            asymmetry,
+            stiffest,
+            relaxed,
+        })
     }
 }
 
@@ -192,6 +208,11 @@ impl Continuum {
     /// C_iajb, α eliminated [Pa; of a sheet N/m, of a chain N].
     pub fn macroscopic(&self) -> &Tensor {
         &self.macroscopic
+    }
+
+    /// The largest of C_e and C [Pa; of a sheet N/m, of a chain N].
+    pub fn stiffness(&self) -> f64 {
+        moduli::largest(&self.held()).max(moduli::largest(&self.macroscopic))
     }
 
     /// The largest |C_iajb − C_aijb| in the space of the cell vectors, as a part of the largest modulus.
@@ -252,7 +273,7 @@ impl Continuum {
             squares.extend(std::iter::repeat_n(0.0, self.floppy()));
             squares.sort_by(f64::total_cmp);
         }
-        let largest = squares.iter().fold(self.condensed.stiffest(), |most: f64, square| most.max(square.abs()));
+        let largest = squares.iter().fold(self.stiffest, |most: f64, square| most.max(square.abs()));
         Ok(squares.into_iter().map(|square| if square.abs() <= NEUTRAL * largest { 0.0 } else { square }).collect())
     }
 

@@ -95,7 +95,8 @@ fn within(waves: &Tensor, span: &Span) -> Tensor {
     tensor(|i, a, j, b| pairs().map(|(k, l)| p[(i, k)] * p[(j, l)] * waves[k][a][l][b]).sum())
 }
 
-fn largest(tensor: &Tensor) -> f64 {
+/// The largest entry.
+pub(super) fn largest(tensor: &Tensor) -> f64 {
     tensor.as_flattened().as_flattened().as_flattened().iter().fold(0.0, |most: f64, entry| most.max(entry.abs()))
 }
 
