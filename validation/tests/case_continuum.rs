@@ -59,14 +59,26 @@ fn affine_granules_are_a_medium_with_their_moduli() {
 fn a_medium_of_affine_granules_ends_where_it_must() {
     let case = Case { row: None, name: "waves of the continuum of affine granules", source: "closed form" };
     let [k, l, own] = [BETWEEN, LENGTH, GRANULE.stiffness];
-    let names = [
-        ("first, acoustic [rad/s]", "first, off [%]", ContinuumModel::First, [0.998, 1.800, 7.920, 46.914]),
-        ("mindlin, acoustic [rad/s]", "mindlin, off [%]", ContinuumModel::Mindlin, [0.941, 1.695, 7.424, 42.363]),
-    ];
     let wave_numbers = [3.0 * PI / 16.0, 0.25 * PI, 0.5 * PI, PI];
-    for (name, off, model, percent) in names {
+    let first = [
+        ("first, q = 3π/16 [rad/s]", "first, off at 3π/16 [%]", 0.998),
+        ("first, q = π/4 [rad/s]", "first, off at π/4 [%]", 1.800),
+        ("first, q = π/2 [rad/s]", "first, off at π/2 [%]", 7.920),
+        ("first, q = π [rad/s]", "first, off at π [%]", 46.914),
+    ];
+    let mindlin = [
+        ("mindlin, q = 3π/16 [rad/s]", "mindlin, off at 3π/16 [%]", 0.941),
+        ("mindlin, q = π/4 [rad/s]", "mindlin, off at π/4 [%]", 1.695),
+        ("mindlin, q = π/2 [rad/s]", "mindlin, off at π/2 [%]", 7.424),
+        ("mindlin, q = π [rad/s]", "mindlin, off at π [%]", 42.363),
+    ];
+    let models = [
+        (ContinuumModel::First, first, ("first, optic off at π/2 [%]", 2.921)),
+        (ContinuumModel::Mindlin, mindlin, ("mindlin, optic off at π/2 [%]", -0.505)),
+    ];
+    for (model, names, (name_of_optic, optic_off)) in models {
         let found = survey(&granules(), model, &wave_numbers);
-        for ((row, q), percent) in wave_numbers.into_iter().enumerate().zip(percent) {
+        for (row, (q, (name, off, percent))) in wave_numbers.into_iter().zip(names).enumerate() {
             let softens = if model == ContinuumModel::Mindlin { 0.25 * k * l * l * q * q } else { 0.0 };
             let squares = roots([k * q * q, own + k * l * l - softens, k * l * q], [GRANULE.mass, GRANULE.moment]);
             let acoustic = squares[0].sqrt();
@@ -76,8 +88,7 @@ fn a_medium_of_affine_granules_ends_where_it_must() {
         }
         let optic = GRANULE.squares(0.5 * PI)[1].sqrt();
         let own = nearest(&found.map.continuum[2], optic);
-        let expected = if model == ContinuumModel::First { 2.921 } else { -0.505 };
-        case.check("optic at π/2, off [%]", expected, 100.0 * (own / optic - 1.0), 1e-3);
+        case.check(name_of_optic, optic_off, 100.0 * (own / optic - 1.0), 1e-3);
     }
     // −kl²q²/4 takes away what holds the stretch: ω² < 0 where κ < kl²q²/4.
     let soft = LatticeScene::new(&[[1.0, 0.0, 0.0]]).body(
@@ -107,14 +118,19 @@ fn rigid_grains_are_a_beam_that_shears() {
         points.join(", ")
     );
     let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap_or_else(|error| panic!("{error}"));
-    for model in [ContinuumModel::Mindlin, ContinuumModel::Cosserat] {
+    let names = [
+        (ContinuumModel::Mindlin, ["mindlin, lower, q = 0.4 [rad/s]", "mindlin, upper, q = 0.4 [rad/s]"]),
+        (ContinuumModel::Cosserat, ["cosserat, lower, q = 0.4 [rad/s]", "cosserat, upper, q = 0.4 [rad/s]"]),
+    ];
+    for (model, names) in names {
         let q = 0.4;
         let found = survey(&scene, model, &[q]);
         let arm = shear * spacing * spacing;
         let turning = arm + (bend - 0.25 * arm) * q * q;
-        for square in roots([shear * q * q, turning, shear * spacing * q], [1.0, inertia]) {
+        let squares = roots([shear * q * q, turning, shear * spacing * q], [1.0, inertia]);
+        for (name, square) in names.into_iter().zip(squares) {
             let omega = square.sqrt();
-            case.check("q = 0.4 [rad/s]", omega, nearest(&found.map.continuum[0], omega), TOLERANCE);
+            case.check(name, omega, nearest(&found.map.continuum[0], omega), TOLERANCE);
         }
     }
     // Without torsion or bending of its own the beam gives way: what follows at k = 0 carries no shear.

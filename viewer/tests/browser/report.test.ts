@@ -183,8 +183,8 @@ describe("a report", () => {
     const before = await pixelsAt(page, 0.9 * end);
     await page.getByRole("combobox", { name: "colouring" }).selectOption("stretch");
     expect(differing(before, await pixelsAt(page, 0.9 * end))).toBeGreaterThan(50);
-    await page.locator(".scale").waitFor();
-    expect(await page.locator(".scale").textContent()).toContain("Greatest stretch");
+    await page.getByRole("img", { name: "colour bar" }).waitFor();
+    expect(await page.getByRole("img", { name: "colour bar" }).textContent()).toContain("Greatest stretch");
     expect(problems).toEqual([]);
     await close();
   });
