@@ -17,9 +17,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use world::World;
 
-/// The exit codes of `gyration run`.
+/// Those of `gyration run`, which tells more of them apart.
+const ENDED_EARLY: u8 = 1;
 const BAD_INPUT: u8 = 2;
-const ENDED_EARLY: u8 = 3;
 const INTERRUPTED: u8 = 130;
 
 fn main() -> ExitCode {

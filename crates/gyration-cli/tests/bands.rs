@@ -24,7 +24,7 @@ rest_length = 0.8
 ";
 
 /// Two masses in turn, along a line that nothing stretches.
-const DIATOMIC: &str = "\
+pub(crate) const DIATOMIC: &str = "\
 [world]
 gravity = [0, 0, 0]
 [time]

@@ -1,46 +1,19 @@
 //! `gyration continuum`: what it prints, and what it refuses.
 
+use crate::bands::DIATOMIC;
 use crate::common::Sandbox;
 use serde_json::Value;
-
-/// Two masses in turn on two kinds of springs.
-const CHAIN: &str = "\
-title = \"two springs in turn\"
-[world]
-gravity = [0, 0, 0]
-[time]
-end = 1
-sample = 1
-[lattice]
-cell = [[0.8, 0, 0]]
-[[body]]
-name = \"a\"
-shape = { points = [{ mass = 0.5, at = [0, 0, 0] }] }
-[[body]]
-name = \"b\"
-shape = { points = [{ mass = 0.3, at = [0, 0, 0] }] }
-position = [0.4, 0, 0]
-[[spring]]
-between = [\"a\", \"b\"]
-stiffness = 50
-rest_length = 0.4
-[[spring]]
-between = [\"b\", \"a\"]
-cell = [1, 0, 0]
-stiffness = 30
-rest_length = 0.4
-";
 
 #[test]
 fn a_continuum_is_told_in_words_in_json_and_in_a_picture() {
     let sandbox = Sandbox::new();
-    sandbox.write("chain.toml", CHAIN);
+    sandbox.write("chain.toml", DIATOMIC);
     let arguments = ["continuum", "chain.toml", "--path", "0,0,0 0.25,0,0", "--points", "3"];
     let said = sandbox.done(&[&arguments[..], &["--plot", "continuum.svg"]].concat());
     for told in [
         "6 coordinates a cell: u_x u_y u_z b.u_x b.u_y b.u_z",
-        "density 1 kg/m",
-        "  xxxx            15",
+        "density 3 kg/m",
+        "  xxxx           1.5",
         "wavelengths below",
     ] {
         assert!(said.stdout.contains(told), "{told}: {}", said.stdout);
@@ -51,23 +24,25 @@ fn a_continuum_is_told_in_words_in_json_and_in_a_picture() {
     let json = sandbox.done(&[&arguments[..], &["--model", "cauchy", "--json"]].concat()).stdout;
     let found: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(found["model"], "cauchy");
-    assert_eq!(found["volume"], 0.8);
+    assert_eq!(found["volume"], 1.0);
     let shape = |value: &Value| value.as_array().map_or(0, Vec::len);
     assert_eq!([shape(&found["D0"]), shape(&found["D1"]), shape(&found["D2"]), shape(&found["D2"][0])], [6, 3, 3, 3]);
     let map = &found["map"];
     // Motions across the chain that nothing holds stay beside u.
     assert_eq!([shape(&map["kappa"]), shape(&map["omega"][1]), shape(&map["continuum"][1])], [3, 6, 5]);
     assert!(map["error"][0].as_array().unwrap().iter().all(Value::is_null), "nothing moves at κ = 0");
-    assert!(found["reach"][0]["wavelength"].as_f64().unwrap() > 0.8);
+    assert!(found["reach"][0]["wavelength"].as_f64().unwrap() > 1.0);
 }
 
 #[test]
 fn what_is_no_continuum_is_refused() {
     let sandbox = Sandbox::new();
-    sandbox.write("chain.toml", CHAIN);
-    sandbox.write("damped.toml", &CHAIN.replace("stiffness = 30\n", "stiffness = 30\ndamping = 0.1\n"));
-    sandbox
-        .write("alone.toml", &CHAIN.replace("[lattice]\ncell = [[0.8, 0, 0]]\n", "").replace("cell = [1, 0, 0]\n", ""));
+    sandbox.write("chain.toml", DIATOMIC);
+    sandbox.write("damped.toml", &DIATOMIC.replace("stiffness = 3\n", "stiffness = 3\ndamping = 0.1\n"));
+    sandbox.write(
+        "alone.toml",
+        &DIATOMIC.replace("[lattice]\ncell = [[1, 0, 0]]\n", "").replace("cell = [1, 0, 0]\n", ""),
+    );
     for (arguments, told) in [
         (&["damped.toml"][..], "leave out damping"),
         (&["alone.toml"], "no `[lattice]`"),

@@ -94,6 +94,12 @@ pub fn unit_cell(scene: &Scene) -> Result<&UnitCell, String> {
     Ok(cell)
 }
 
+/// A path as it is written, or the usual one of a cell.
+pub(super) fn path_of(cell: &UnitCell, path: Option<&str>, points: usize) -> Result<BandPath, String> {
+    let usual = BandPath::usual(&cell.periodic);
+    BandPath::parse(path.unwrap_or(&usual), points, &cell.periodic).map_err(|error| error.to_string())
+}
+
 /// Refuses a mesh of more wave vectors than are worth it.
 pub(super) fn check_mesh(mesh: usize, periodic: &[bool]) -> Result<(), String> {
     let directions = periodic.iter().filter(|periodic| **periodic).count() as u32;
@@ -112,9 +118,7 @@ impl BandSurvey {
     /// Why there are none, in words.
     pub fn of(scene: &Scene, path: Option<&str>, options: BandOptions) -> Result<Self, String> {
         let cell = unit_cell(scene)?;
-        let usual = BandPath::usual(&cell.periodic);
-        let path = BandPath::parse(path.unwrap_or(&usual), options.points, &cell.periodic);
-        let path = path.map_err(|error| error.to_string())?;
+        let path = path_of(cell, path, options.points)?;
         options.mesh.map_or(Ok(()), |mesh| check_mesh(mesh, &cell.periodic))?;
         let told = |error: NoBands| error.to_string();
         let waves = waves_of(cell, options.strain.as_ref()).map_err(told)?;

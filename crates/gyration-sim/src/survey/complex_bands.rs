@@ -1,7 +1,7 @@
 //! Complex bands of a lattice, in a form to print: all wave vectors that a frequency has.
 
-use super::bands::{BandOptions, unit_cell, waves_of};
-use crate::modes::bands::{BandPath, NoBands};
+use super::bands::{BandOptions, path_of, unit_cell, waves_of};
+use crate::modes::bands::NoBands;
 use gyration_scene::Scene;
 use serde::Serialize;
 
@@ -39,9 +39,7 @@ impl ComplexBandSurvey {
         if !cell.periodic.get(direction).copied().unwrap_or(false) {
             return Err(format!("along {} the lattice has no waves: it is not periodic there", direction + 1));
         }
-        let usual = BandPath::usual(&cell.periodic);
-        let path = BandPath::parse(path.unwrap_or(&usual), options.points, &cell.periodic);
-        let path = path.map_err(|error| error.to_string())?;
+        let path = path_of(cell, path, options.points)?;
         let told = |error: NoBands| error.to_string();
         let waves = waves_of(cell, options.strain.as_ref()).map_err(told)?;
         let [from, to] = match complex.omega {

@@ -1,9 +1,7 @@
 //! The continuum of a lattice, in a form to print.
 
-use super::bands::{CellRestSurvey, cell_rest, unit_cell, warnings_of, waves_of};
-use crate::modes::bands::{
-    BandPath, BandRow, Continuum, ContinuumModel, NoBands, NoContinuum, Reach, Tensor, frequency_error,
-};
+use super::bands::{CellRestSurvey, cell_rest, path_of, unit_cell, warnings_of, waves_of};
+use crate::modes::bands::{BandRow, Continuum, ContinuumModel, NoBands, NoContinuum, Reach, Tensor, frequency_error};
 use gyration_scene::Scene;
 use nalgebra::DMatrix;
 use serde::{Serialize, Serializer};
@@ -85,9 +83,7 @@ impl ContinuumSurvey {
     /// Why there is none, in words.
     pub fn of(scene: &Scene, model: ContinuumModel, path: Option<&str>, points: usize) -> Result<Self, String> {
         let cell = unit_cell(scene)?;
-        let usual = BandPath::usual(&cell.periodic);
-        let path = BandPath::parse(path.unwrap_or(&usual), points, &cell.periodic);
-        let path = path.map_err(|error| error.to_string())?;
+        let path = path_of(cell, path, points)?;
         let waves = waves_of(cell, None).map_err(|error: NoBands| error.to_string())?;
         let names: Vec<&str> = cell.model.names().collect();
         let told = |error: NoContinuum| error.to_string();
