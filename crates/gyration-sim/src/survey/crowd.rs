@@ -23,14 +23,8 @@ pub(super) const MOST_BODIES: usize = 100;
 pub(super) fn sorts(bodies: &[BodySurvey]) -> Vec<Vec<usize>> {
     let mut sorts: Vec<Vec<usize>> = Vec::new();
     let mut known = HashMap::new();
-    let mut last: Option<(&BodySurvey, usize)> = None;
     for (index, body) in bodies.iter().enumerate() {
-        // Bodies of a sort stand together: of equal numbers there is no need for words.
-        let place = match last.filter(|(before, _)| have_common_numbers(before, body)) {
-            Some((_, place)) => place,
-            None => *known.entry(common_words(body)).or_insert(sorts.len()),
-        };
-        last = Some((body, place));
+        let place = *known.entry(common_words(body)).or_insert(sorts.len());
         match sorts.get_mut(place) {
             Some(sort) => sort.push(index),
             None => sorts.push(vec![index]),
@@ -38,21 +32,6 @@ pub(super) fn sorts(bodies: &[BodySurvey]) -> Vec<Vec<usize>> {
     }
     sorts.truncate(MOST_SORTS);
     sorts
-}
-
-/// Whether all numbers are equal that [`common_words`] tells.
-fn have_common_numbers(one: &BodySurvey, other: &BodySurvey) -> bool {
-    let are_equal = |(one, other): (&PairSurvey, &PairSurvey)| {
-        one.support == other.support
-            && one.laws == other.laws
-            && one.forbids_touching == other.forbids_touching
-            && one.no_rest_because == other.no_rest_because
-    };
-    one.size == other.size
-        && one.mass == other.mass
-        && one.kind == other.kind
-        && one.supports.len() == other.supports.len()
-        && one.supports.iter().zip(&other.supports).all(are_equal)
 }
 
 /// What is told of all bodies of a sort.
