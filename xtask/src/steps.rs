@@ -95,11 +95,12 @@ impl Steps {
     /// Takes in what a test command said, and how it ended.
     fn judge(&mut self, title: &str, tally: Tally, outcome: Result<(), String>) -> bool {
         let (ran, failed) = (tally.passed + tally.failed > 0, tally.failed);
+        let names = tally.names.join(", ");
         self.tally.add(tally);
         let success = outcome.is_ok();
         if failed > 0 {
             // Counted already, test by test.
-            self.complaints.push(format!("{title}: {failed} tests failed"));
+            self.complaints.push(format!("{title}: {failed} tests failed: {names}"));
         } else if let Err(reason) = outcome {
             self.complain(format!("{title}: did not build, or a test program died: {reason}"));
         } else if !ran {

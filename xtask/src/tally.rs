@@ -2,6 +2,7 @@
 //!
 //!   test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.05s
 //!   Tests  1 failed | 11 passed | 2 skipped (14)               of the viewer
+//!   test name ... FAILED                                       ` FAIL  file > name` of the viewer
 //!   validation: row=13 case="…" …
 //!   published: key="…" source="…" …
 
@@ -17,6 +18,8 @@ pub struct Tally {
     pub failed: usize,
     /// Tests that were not run.
     pub ignored: usize,
+    /// The names of those that failed, as far as they are told.
+    pub names: Vec<String>,
     /// Known answers, in the order of printing.
     pub answers: Vec<Answer>,
     /// Published numbers, in the order of printing.
@@ -32,6 +35,8 @@ impl Tally {
             self.passed += count(result, "passed");
             self.failed += count(result, "failed");
             self.ignored += count(result, "ignored");
+        } else if let Some(name) = failure(line) {
+            self.names.push(name.to_owned());
         } else if let Some(result) = line.trim_start().strip_prefix("Tests  ") {
             self.passed += count(result, "passed");
             self.failed += count(result, "failed");
@@ -54,10 +59,17 @@ impl Tally {
         self.passed += other.passed;
         self.failed += other.failed;
         self.ignored += other.ignored;
+        self.names.extend(other.names);
         self.answers.extend(other.answers);
         self.findings.extend(other.findings);
         self.unreadable.extend(other.unreadable);
     }
+}
+
+/// The name of a test that failed: `test name ... FAILED`, ` FAIL  file > name` of the viewer.
+fn failure(line: &str) -> Option<&str> {
+    let of_rust = line.strip_prefix("test ").and_then(|rest| rest.strip_suffix(" ... FAILED"));
+    of_rust.or_else(|| line.trim_start().strip_prefix("FAIL  ")).map(str::trim)
 }
 
 /// The number before `word` in "ok. 12 passed; 0 failed; …" or "12 passed | 2 skipped (14)".
@@ -87,6 +99,15 @@ mod tests {
         tally.read("test result: FAILED. 3 passed; 2 failed; 0 ignored; 0 measured; 0 filtered out");
         tally.read("test some_test ... ok");
         assert_eq!((tally.passed, tally.failed, tally.ignored), (15, 2, 1));
+    }
+
+    #[test]
+    fn tests_that_failed_are_named() {
+        let mut tally = Tally::default();
+        for line in ["test a::b ... FAILED", "test c ... ok", " FAIL  |unit| tests/x.test.ts > y > z "] {
+            tally.read(line);
+        }
+        assert_eq!(tally.names, ["a::b", "|unit| tests/x.test.ts > y > z"]);
     }
 
     #[test]

@@ -59,25 +59,27 @@ impl Finding {
     ///
     ///   p = log₂((x₁ − x₂)/(x₂ − x₃)),   x = x₃ + (x₃ − x₂)/(2^p − 1)
     ///
-    /// # Panics
-    /// If the differences do not shrink and are not far below that error: such runs have no limit.
-    pub fn of(runs: Runs, size: f64, error: f64) -> Self {
+    /// # Errors
+    /// The runs, if the differences do not shrink and are not far below that error: they have no limit.
+    pub fn of(runs: Runs, size: f64, error: f64) -> Result<Self, String> {
         let [whole, half, quarter] = match runs {
-            Runs::Once(value) => return Self { whole: value, half: None, limit: value, order: Order::Single },
+            Runs::Once(value) => return Ok(Self { whole: value, half: None, limit: value, order: Order::Single }),
             Runs::Halved(values) => values,
         };
         let (first, second) = (whole - half, half - quarter);
         let settled = Self { whole, half: Some(half), limit: quarter, order: Order::Rounding };
         if second.abs() <= ROUNDING * size && first.is_finite() {
-            return settled;
+            return Ok(settled);
         }
         let ratio = first / second;
         if ratio > 1.0 {
-            return Self { limit: quarter - second / (ratio - 1.0), order: Order::Power(ratio.log2()), ..settled };
+            return Ok(Self { limit: quarter - second / (ratio - 1.0), order: Order::Power(ratio.log2()), ..settled });
         }
         let small = first.abs() <= SMALL * error && second.abs() <= SMALL * error;
-        assert!(small, "the runs {:?} do not settle", [whole, half, quarter]);
-        Self { order: Order::Unordered, ..settled }
+        match small {
+            true => Ok(Self { order: Order::Unordered, ..settled }),
+            false => Err(format!("the runs {:?} do not settle", [whole, half, quarter])),
+        }
     }
 }
 
@@ -85,21 +87,21 @@ impl Row {
     /// Prints the line of a row that was run.
     ///
     /// # Panics
-    /// If the row asks for no run, or the verdict is not the one expected.
+    /// If the row asks for no run, the runs have no limit, or the verdict is not the one expected.
     pub fn check(&self, runs: Runs) {
-        let line = self.line(runs);
+        let line = self.line(runs).unwrap_or_else(|fault| panic!("{}: {fault}", self.key));
         println!("published: {line}");
-        line.assert_expected();
+        assert!(line.is_expected(), "{line}");
     }
 
-    fn line(&self, runs: Runs) -> Line<'_> {
+    fn line(&self, runs: Runs) -> Result<Line<'_>, String> {
         let Published::Number(published) = self.published else { panic!("{} has no number to compare", self.key) };
         let size = if published == 0.0 { 1.0 } else { published.abs() };
         let error = self.tolerance * size + self.reading;
-        let finding = Finding::of(runs, size, error);
+        let finding = Finding::of(runs, size, error)?;
         let within = (finding.limit - published).abs() <= error;
         let found = if within { Verdict::Agrees } else { Verdict::Disagrees };
-        Line { row: self, finding: Some(finding), found }
+        Ok(Line { row: self, finding: Some(finding), found })
     }
 
     /// Prints the line of a row that asks for no run.
@@ -121,8 +123,8 @@ struct Line<'a> {
 }
 
 impl Line<'_> {
-    fn assert_expected(&self) {
-        assert_eq!(self.found, self.row.expected, "{self}");
+    fn is_expected(&self) -> bool {
+        self.found == self.row.expected
     }
 }
 
@@ -184,7 +186,7 @@ mod tests {
     #[test]
     fn limit_and_order_of_a_power_are_exact() {
         for wanted in [0.5, 1.0, 1.2, 1.5, 3.0] {
-            let Finding { limit, order, .. } = Finding::of(power(wanted), 2.0, 1e-6);
+            let Finding { limit, order, .. } = Finding::of(power(wanted), 2.0, 1e-6).unwrap();
             assert!((limit - 2.0).abs() < 1e-12, "{limit}");
             assert!(matches!(order, Order::Power(order) if (order - wanted).abs() < 1e-9), "{order:?}");
         }
@@ -192,22 +194,17 @@ mod tests {
 
     #[test]
     fn runs_that_differ_by_rounding_have_no_order() {
-        let found = Finding::of(Runs::Halved([3.0 + 1e-9, 3.0, 3.0 + 2e-9]), 3.0, 1e-6);
+        let found = Finding::of(Runs::Halved([3.0 + 1e-9, 3.0, 3.0 + 2e-9]), 3.0, 1e-6).unwrap();
         assert_eq!((found.limit, found.order), (3.0 + 2e-9, Order::Rounding));
-        let found = Finding::of(Runs::Halved([1.0, 1.0 + 1e-8, 1.0]), 1.0, 1e-6);
+        let found = Finding::of(Runs::Halved([1.0, 1.0 + 1e-8, 1.0]), 1.0, 1e-6).unwrap();
         assert_eq!((found.limit, found.order), (1.0, Order::Unordered));
     }
 
     #[test]
-    #[should_panic(expected = "do not settle")]
-    fn runs_that_wander_have_no_limit() {
-        let _ = Finding::of(Runs::Halved([1.0, 1.1, 1.3]), 1.0, 1e-6);
-    }
-
-    #[test]
-    #[should_panic(expected = "do not settle")]
-    fn runs_that_are_no_numbers_have_no_limit() {
-        let _ = Finding::of(Runs::Halved([f64::NAN, 1.0, 1.0]), 1.0, 1e-6);
+    fn runs_that_wander_or_are_no_numbers_have_no_limit() {
+        for values in [[1.0, 1.1, 1.3], [f64::NAN, 1.0, 1.0]] {
+            assert!(Finding::of(Runs::Halved(values), 1.0, 1e-6).unwrap_err().contains("do not settle"));
+        }
     }
 
     #[test]
@@ -230,25 +227,22 @@ mod tests {
 
     #[test]
     fn a_reading_widens_the_tolerance() {
-        let found = |row: &Row| row.line(Runs::Once(2.01)).found;
+        let found = |row: &Row| row.line(Runs::Once(2.01)).unwrap().found;
         assert_eq!([found(&ROW), found(&Row { reading: 0.01, ..ROW })], [Verdict::Disagrees, Verdict::Agrees]);
     }
 
     #[test]
     fn it_is_the_limit_that_is_compared() {
-        ROW.line(power(1.0)).assert_expected();
-        assert_eq!(ROW.line(Runs::Once(2.1)).found, Verdict::Disagrees);
+        assert!(ROW.line(power(1.0)).unwrap().is_expected());
+        assert_eq!(ROW.line(Runs::Once(2.1)).unwrap().found, Verdict::Disagrees);
     }
 
     #[test]
-    #[should_panic(expected = "found=\"disagrees\"")]
-    fn a_row_that_was_to_agree_and_does_not_fails() {
-        ROW.line(Runs::Once(2.01)).assert_expected();
-    }
-
-    #[test]
-    #[should_panic(expected = "found=\"agrees\"")]
-    fn a_row_that_was_to_disagree_and_does_not_fails() {
-        Row { expected: Verdict::Disagrees, ..ROW }.line(Runs::Once(2.0)).assert_expected();
+    fn a_verdict_that_was_not_expected_is_told() {
+        let line = ROW.line(Runs::Once(2.01)).unwrap();
+        assert!(!line.is_expected() && line.to_string().contains("found=\"disagrees\""));
+        let other = Row { expected: Verdict::Disagrees, ..ROW };
+        let line = other.line(Runs::Once(2.0)).unwrap();
+        assert!(!line.is_expected() && line.to_string().contains("found=\"agrees\""));
     }
 }
