@@ -19,6 +19,7 @@ mod case_contracting_box;
 mod case_contraction_modes;
 mod case_deforming_inclusion;
 mod case_driven_joints;
+mod case_fields;
 mod case_gallery_dissipates;
 mod case_guides;
 mod case_joints;

@@ -1,5 +1,9 @@
 //! What may be written after `gyration`.
 
+mod fields;
+
+pub use fields::FieldArguments;
+
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -47,6 +51,8 @@ pub enum Command {
     Bands(Bands),
     /// Print what a lattice is as a continuum: matrices, moduli, and the wavelengths at which a model of it ends
     Continuum(ContinuumArguments),
+    /// Print micromorphic fields of a recording: density, momenta, stresses, and how well their balances close
+    Fields(FieldArguments),
     /// Print the resistance of bodies in a viscous fluid: the matrix from velocity and velocity gradient to force and
     /// moment
     Resistance(ResistanceArguments),

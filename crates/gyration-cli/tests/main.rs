@@ -11,6 +11,7 @@ mod common;
 mod continuum;
 mod drive_plots;
 mod export;
+mod fields;
 mod full_disk;
 mod import;
 mod meeting_plots;

@@ -36,7 +36,9 @@ mod uniform;
 pub mod units;
 mod unknown;
 
-pub use assemble::{Built, CellLoad, Packet, Plan, Record, StartingWave, StopAtRest, TRIANGLES, UnitCell, WaveStart};
+pub use assemble::{
+    Built, CellBlock, CellLoad, Packet, Plan, Record, StartingWave, StopAtRest, TRIANGLES, UnitCell, WaveStart,
+};
 pub use error::{ErrorKind, LoadError, NotToml, ReadError, SceneError, SceneErrors};
 pub use file::{Method, Recorded};
 pub use gallery::{NotInGallery, gallery, gallery_scene, gallery_title};

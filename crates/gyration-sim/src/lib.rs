@@ -12,6 +12,8 @@
 pub mod adapter;
 mod crowd;
 pub mod events;
+mod field_samples;
+pub mod fields;
 mod first_steps;
 pub mod format;
 mod hold_joints;
@@ -42,6 +44,7 @@ pub mod waves;
 
 pub use adapter::Tolerance;
 pub use crowd::CrowdState;
+pub use field_samples::{FieldGrid, FieldPoints, FieldSurvey, NoFields};
 pub use first_steps::{FirstSteps, MomentumChange};
 pub use network::{Push, network};
 pub use outcome::{Outcome, Reason, Stop, limit_in_words};

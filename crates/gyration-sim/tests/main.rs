@@ -11,6 +11,7 @@ mod deforming;
 mod dissipation;
 mod equations;
 mod exchanges;
+mod fields;
 mod impulses;
 mod interruptions;
 mod islands;

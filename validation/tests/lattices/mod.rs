@@ -68,6 +68,11 @@ impl LatticeScene {
         self
     }
 
+    /// Its text.
+    pub fn text(&self) -> &str {
+        &self.0
+    }
+
     /// The scene.
     pub fn scene(&self) -> Scene {
         Scene::parse("scene.toml", &self.0, Path::new(""), &[]).unwrap_or_else(|error| panic!("{error}\n{}", self.0))

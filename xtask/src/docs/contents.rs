@@ -17,7 +17,16 @@ const PARTS: [(&str, &[&str]); 7] = [
         &["docs/README.md", "docs/gallery.md", "docs/viewing.md", "docs/recipes.md", "docs/check-any-simulator.md"],
     ),
     ("Scenes", &["docs/scene-reference.md", "docs/robots.md", "docs/crowds.md", "docs/exit-codes.md"]),
-    ("Results", &["docs/recording.md", "docs/recipes-recordings.md", "docs/exports.md", "docs/sensitivities.md"]),
+    (
+        "Results",
+        &[
+            "docs/recording.md",
+            "docs/recipes-recordings.md",
+            "docs/exports.md",
+            "docs/fields.md",
+            "docs/sensitivities.md",
+        ],
+    ),
     ("Many runs", &["docs/studies.md", "docs/ready-studies.md", "docs/clusters.md", "docs/calibrate.md"]),
     ("Python", &["docs/python.md", REFERENCE]),
     (

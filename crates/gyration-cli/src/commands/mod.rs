@@ -7,6 +7,7 @@ mod check;
 mod completions;
 mod continuum;
 mod export;
+mod fields;
 mod import;
 mod man;
 mod modes;
@@ -40,6 +41,7 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::Modes(arguments) => modes::execute(&arguments),
         Command::Bands(arguments) => bands::execute(&arguments),
         Command::Continuum(arguments) => continuum::execute(&arguments),
+        Command::Fields(arguments) => fields::execute(&arguments),
         Command::Resistance(arguments) => resistance::execute(&arguments),
         Command::Scenes(arguments) => scenes::execute(&arguments),
         Command::New(arguments) => new::execute(&arguments),

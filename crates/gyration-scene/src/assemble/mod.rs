@@ -89,6 +89,8 @@ pub struct Built {
     pub record: Record,
     /// What bands are of, where there is a lattice.
     pub cell: Option<UnitCell>,
+    /// The cells of the run, where there is a lattice.
+    pub block: Option<CellBlock>,
     /// The waves with which it starts, until the scene is completed.
     pub waves: Option<WaveStart>,
     /// The number of the `[[body]]` that each body of the model comes from.
@@ -96,6 +98,13 @@ pub struct Built {
 }
 
 impl Built {
+    /// The vectors by which the bodies of a run follow one another without end \[m\]; none where nothing is periodic.
+    pub fn periods(&self) -> Vec<Vec3> {
+        let Some(block) = self.block else { return Vec::new() };
+        let along = self.model.lattice.vectors().iter().zip(block.repeat).zip(block.periodic);
+        along.filter(|(_, periodic)| *periodic).map(|((vector, count), _)| f64::from(count) * vector).collect()
+    }
+
     /// Gives a body of the model, and its images in the cells of which bands and waves are, the form that was not
     /// known. In a lattice no body has copies.
     pub(crate) fn give_form(&mut self, body: usize, form: &Form) {
@@ -130,6 +139,15 @@ pub struct UnitCell {
     pub relaxes: bool,
     /// Under which load its vectors seek theirs too, if they do.
     pub load: Option<CellLoad>,
+}
+
+/// The cells of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CellBlock {
+    /// How many there are along each vector.
+    pub repeat: [u32; 3],
+    /// Whether the last is beside the first.
+    pub periodic: [bool; 3],
 }
 
 /// Quantities that are recorded on request.
@@ -296,6 +314,7 @@ pub(crate) fn assemble(
         }
     }
     let record = partial.record.as_ref().map(Record::new).unwrap_or_default();
+    let block = cells.as_ref().map(|cells| CellBlock { repeat: cells.repeat(), periodic: cells.ring() });
     let cells = cells.as_ref().map_or(1, Cells::count);
     let written: Vec<usize> =
         partial.numbers.written().into_iter().flat_map(|number| std::iter::repeat_n(number, cells)).collect();
@@ -304,7 +323,7 @@ pub(crate) fn assemble(
         fluid::unknown(&partial.bodies[*number].value, body, index)
     };
     let forms = forms.filter_map(form).collect();
-    Some((Built { model, state, plan, record, cell, waves, written }, forms))
+    Some((Built { model, state, plan, record, cell, block, waves, written }, forms))
 }
 
 /// Gives mass points a size, by which tolerances are judged: the length of their shortest spring or bond, else of the

@@ -20,11 +20,13 @@ pub use rebuild::scene;
 pub use snapshot::{BodySnapshot, Snapshot};
 
 use crate::crowd::CrowdState;
+use crate::fields::{Granules, RecordedPair};
 use crate::network::{Push, network};
 use gyration::body::{Body, BodyKind};
 use gyration::dynamics::{ContactParts, Exchange, Workspace, acting, contact_parts, exchanges};
 use gyration::homogeneous::observe_homogeneous;
 use gyration::kinematics::{Placement, Quaternion, Velocity};
+use gyration::lattice::Lattice;
 use gyration::model::Model;
 use gyration::state::{RigidStart, Start, State};
 use gyration::tensor::{Mat3, Vec3, axial};
@@ -37,6 +39,8 @@ use window::{Window, WindowRow};
 #[derive(Debug, Clone)]
 pub struct Replay {
     model: Model,
+    /// By which its bodies follow one another without end.
+    periods: Lattice,
     window: Window,
     workspace: Workspace,
 }
@@ -49,8 +53,11 @@ impl Replay {
     /// # Errors
     /// `NoScene`, `Scene` (a mesh or a table may have moved), `OtherBody` (or have changed), `Record`.
     pub fn open(recording: &Recording) -> Result<Self, ReplayError> {
-        let model = rebuild::scene(recording)?.built().model.clone();
-        Ok(Self { model, window: Window::new(recording), workspace: Workspace::default() })
+        let scene = rebuild::scene(recording)?;
+        let (model, periods) = (scene.built().model.clone(), scene.built().periods());
+        // Those of a lattice span a cell.
+        let periods = Lattice::new(periods).unwrap_or_default();
+        Ok(Self { model, periods, window: Window::new(recording), workspace: Workspace::default() })
     }
 
     /// The model.
@@ -126,6 +133,18 @@ impl Replay {
         let mut found = Vec::new();
         exchanges(&instant, scratch, &mut found).map_err(outside)?;
         Ok(network(model, found))
+    }
+
+    /// The bodies of a sample as granules; pairs as recorded, if they are given, else those of the replay.
+    ///
+    /// # Errors
+    /// Those of [`cauchy_stress`](Replay::cauchy_stress).
+    pub(crate) fn granules(&mut self, row: usize, recorded: Option<&[RecordedPair]>) -> Result<Granules, ReplayError> {
+        let state = self.state(row)?;
+        let Self { model, workspace, periods, .. } = self;
+        let outside = |source| ReplayError::Inadmissible { row, source };
+        let (instant, scratch) = workspace.read(model, &state).map_err(outside)?;
+        Granules::of(&instant, scratch, state.time, recorded, periods.clone()).map_err(outside)
     }
 
     /// What many bodies do together at a sample.

@@ -12,8 +12,10 @@
 
 mod elasticity;
 mod interior;
+mod local;
 
 pub use elasticity::Elasticity;
+pub use local::BodyBalance;
 
 use crate::body::Body;
 use crate::dynamics::{Acting, Scratch, about_pin, linear_friction, of_history, reaction};

@@ -51,7 +51,7 @@ mod oriented;
 mod plan;
 
 pub use composite::Surface;
-pub(crate) use curved::gauss_legendre;
+pub use curved::{QuadratureNode, gauss_legendre};
 pub use facets::{Facets, FacetsError};
 pub use gap::{GapClosed, GapField, GapLack};
 pub use line::LineKernel;

@@ -3,6 +3,8 @@
 mod film;
 mod surfaces;
 
+pub use surfaces::explain;
+
 use crate::arguments::{Export, ExportFormat};
 use crate::error::{CliError, code};
 use crate::input::stem;

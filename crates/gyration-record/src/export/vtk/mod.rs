@@ -1,4 +1,5 @@
-//! VTK's files of surfaces: `.vtp`, one a time, and `.pvd`, which says which file is of which time.
+//! VTK's files of surfaces, `.vtp`, and of grids, `.vti`, one a time, and `.pvd`, which says which file is of which
+//! time.
 //!
 //! XML with its numbers appended: little-endian f64 and i32, compressed block by block with zlib. The topology, the
 //! same at every time, is compressed once. These are the formats that ParaView reads without a library; VTKHDF would
@@ -105,25 +106,15 @@ impl Cells {
 pub fn vtp(data: &PolyData, out: &mut impl Write) -> io::Result<()> {
     let mut text = VtkText { out, appended: Vec::new(), length: 0 };
     let topology = data.topology;
-    text.line(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" \
-         header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n<FieldData>",
-    )?;
-    for whole in &data.field_data {
-        text.whole(whole)?;
-    }
+    text.head("PolyData", "")?;
+    text.wholes(&data.field_data)?;
     text.line(&format!(
-        "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" \
+        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" \
          NumberOfPolys=\"{}\">",
         topology.points, topology.verts.count, topology.polys.count
     ))?;
-    for (section, fields) in [("PointData", &data.point_data), ("CellData", &data.cell_data)] {
-        text.line(&format!("<{section}>"))?;
-        for field in fields {
-            text.array(field.name, field.units, field.components, &field.values)?;
-        }
-        text.line(&format!("</{section}>"))?;
-    }
+    text.arrays("PointData", &data.point_data)?;
+    text.arrays("CellData", &data.cell_data)?;
     text.line("<Points>")?;
     text.array("Points", "m", 3, &data.points)?;
     text.line("</Points>")?;
@@ -135,9 +126,38 @@ pub fn vtp(data: &PolyData, out: &mut impl Write) -> io::Result<()> {
             text.line(&format!("</{section}>"))?;
         }
     }
-    text.line("</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">")?;
-    text.append()?;
-    text.line("\n</AppendedData>\n</VTKFile>")
+    text.tail("PolyData")
+}
+
+/// Numbers at the points of a grid at one time.
+#[derive(Debug, Clone)]
+pub struct ImageData {
+    /// How many points along each axis.
+    pub counts: [usize; 3],
+    /// The first \[m\].
+    pub origin: [f64; 3],
+    /// From one to the next \[m\].
+    pub spacing: [f64; 3],
+    /// Arrays with a value for each point, x fastest.
+    pub point_data: Vec<DataArray>,
+    /// Arrays of the whole.
+    pub field_data: Vec<Whole>,
+}
+
+/// Writes a grid as `.vti`.
+///
+/// # Errors
+/// Those of writing.
+pub fn vti(data: &ImageData, out: &mut impl Write) -> io::Result<()> {
+    let mut text = VtkText { out, appended: Vec::new(), length: 0 };
+    let extent: String = data.counts.iter().map(|count| format!("0 {} ", count.saturating_sub(1))).collect();
+    let three = |numbers: &[f64; 3]| numbers.map(|number| format!("{number:e}")).join(" ");
+    let (extent, origin, spacing) = (extent.trim_end(), three(&data.origin), three(&data.spacing));
+    text.head("ImageData", &format!(" WholeExtent=\"{extent}\" Origin=\"{origin}\" Spacing=\"{spacing}\""))?;
+    text.wholes(&data.field_data)?;
+    text.line(&format!("<Piece Extent=\"{extent}\">"))?;
+    text.arrays("PointData", &data.point_data)?;
+    text.tail("ImageData")
 }
 
 /// The XML, and the numbers that come behind it.
@@ -151,6 +171,35 @@ struct VtkText<'a, W> {
 impl<'a, W: Write> VtkText<'a, W> {
     fn line(&mut self, line: &str) -> io::Result<()> {
         writeln!(self.out, "{line}")
+    }
+
+    /// What stands before the arrays.
+    fn head(&mut self, kind: &str, attributes: &str) -> io::Result<()> {
+        self.line(&format!(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" \
+             header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<{kind}{attributes}>"
+        ))
+    }
+
+    /// What stands behind them, and their numbers.
+    fn tail(&mut self, kind: &str) -> io::Result<()> {
+        self.line(&format!("</Piece>\n</{kind}>\n<AppendedData encoding=\"raw\">"))?;
+        self.append()?;
+        self.line("\n</AppendedData>\n</VTKFile>")
+    }
+
+    fn wholes(&mut self, wholes: &[Whole]) -> io::Result<()> {
+        self.line("<FieldData>")?;
+        wholes.iter().try_for_each(|whole| self.whole(whole))?;
+        self.line("</FieldData>")
+    }
+
+    fn arrays(&mut self, section: &str, arrays: &'a [DataArray]) -> io::Result<()> {
+        self.line(&format!("<{section}>"))?;
+        for array in arrays {
+            self.array(array.name, array.units, array.components, &array.values)?;
+        }
+        self.line(&format!("</{section}>"))
     }
 
     fn array(&mut self, name: &str, units: &str, components: usize, values: &'a CompressedNumbers) -> io::Result<()> {

@@ -24,6 +24,6 @@ pub use disk::Disk;
 pub use ellipsoid::Ellipsoid;
 pub use hemisphere::Hemisphere;
 pub use patch::{Patch, Primitive};
-pub(crate) use rules::graded::gauss_legendre;
+pub use rules::graded::{QuadratureNode, gauss_legendre};
 pub use sphere::Sphere;
 pub use torus::Torus;

@@ -9,16 +9,18 @@ use std::sync::OnceLock;
 
 /// A node on [−1, 1] and its weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct QuadratureNode {
-    pub(crate) at: f64,
-    pub(crate) weight: f64,
+pub struct QuadratureNode {
+    /// x.
+    pub at: f64,
+    /// Its weight.
+    pub weight: f64,
 }
 
 /// The largest number of points that [`gauss_legendre`] offers.
 pub(crate) const MAX_GAUSS: usize = 128;
 
-/// The Gauss–Legendre rule of `points` nodes, clamped to 1 ..= [`MAX_GAUSS`], in increasing order.
-pub(crate) fn gauss_legendre(points: usize) -> &'static [QuadratureNode] {
+/// The Gauss–Legendre rule of `points` nodes on [−1, 1], one to 128 of them, in increasing order.
+pub fn gauss_legendre(points: usize) -> &'static [QuadratureNode] {
     static RULES: [OnceLock<Box<[QuadratureNode]>>; MAX_GAUSS] = [const { OnceLock::new() }; MAX_GAUSS];
     let n = points.clamp(1, MAX_GAUSS);
     RULES[n - 1].get_or_init(|| (0..n).map(|i| legendre_node(n, i)).collect())

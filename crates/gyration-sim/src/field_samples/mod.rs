@@ -1,0 +1,183 @@
+//! The fields of a recording, sample by sample and point by point, in a form to print.
+
+mod image;
+
+use crate::fields::{LocalFields, RecordedPair, Third, Weight};
+use crate::replay::{Replay, ReplayError};
+use gyration::tensor::{Mat3, Vec3};
+use gyration_record::Recording;
+use serde::ser::{Serialize, SerializeStruct, Serializer};
+
+/// A grid reaches beyond the outermost centres by so many widths.
+const MARGIN: f64 = 2.0;
+/// Points of a grid along its longest side where none is given.
+const USUAL_POINTS: usize = 16;
+
+/// Where fields are asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FieldPoints {
+    /// At points \[m\].
+    At(Vec<Vec3>),
+    /// At so many along each axis, over the box of the centres of all samples and two widths beyond.
+    Grid([usize; 3]),
+    /// At 16 along the longest side of that box, equally close along the others.
+    Usual,
+}
+
+/// A grid of points, x fastest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldGrid {
+    /// How many points along each axis.
+    pub counts: [usize; 3],
+    /// The first \[m\].
+    pub origin: Vec3,
+    /// From one to the next \[m\]; the width of the weight along an axis of one point.
+    pub spacing: Vec3,
+}
+
+/// The fields of a recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FieldSurvey {
+    /// b \[m\].
+    pub width: f64,
+    /// The times of the samples \[s\].
+    pub times: Vec<f64>,
+    /// The points \[m\].
+    pub points: Vec<Vec3>,
+    /// The grid on which they are, if they are on one.
+    pub grid: Option<FieldGrid>,
+    /// Of each sample, of each point.
+    pub fields: Vec<Vec<LocalFields>>,
+}
+
+/// Why there are no fields.
+#[derive(Debug, thiserror::Error)]
+pub enum NoFields {
+    /// No samples, or none that can be brought back.
+    #[error(transparent)]
+    Replay(#[from] ReplayError),
+    /// Bodies meet, and what they do to one another was not recorded.
+    #[error("bodies meet in the scene, and what they do to one another was not recorded")]
+    NoPairs,
+    /// The width is not above zero.
+    #[error("the width {0} m is not above zero")]
+    Width(f64),
+    /// A grid without points.
+    #[error("a grid has at least one point along each axis")]
+    EmptyGrid,
+}
+
+impl FieldSurvey {
+    /// Of each `every`-th sample and the last, with weights of a width \[m\].
+    ///
+    /// # Errors
+    /// [`NoFields`].
+    pub fn of(recording: &Recording, width: f64, points: &FieldPoints, every: usize) -> Result<Self, NoFields> {
+        if !(width > 0.0 && width.is_finite()) {
+            return Err(NoFields::Width(width));
+        }
+        let mut replay = Replay::open(recording)?;
+        let bodies = replay.model().bodies.len();
+        let meet = (0..bodies).any(|body| replay.model().meets_bodies(body));
+        let is_recorded = recording.ragged().is_some();
+        if meet && !is_recorded {
+            return Err(NoFields::NoPairs);
+        }
+        let mut rows: Vec<usize> = (0..recording.rows()).step_by(every.max(1)).collect();
+        rows.extend(recording.rows().checked_sub(1).filter(|last| last % every.max(1) > 0));
+        let mut samples = Vec::with_capacity(rows.len());
+        for row in rows {
+            let recorded = match is_recorded {
+                true => Some(RecordedPair::of_row(recording, row, bodies).map_err(ReplayError::Record)?),
+                false => None,
+            };
+            samples.push(replay.granules(row, recorded.as_deref())?);
+        }
+        let places = || samples.iter().flat_map(|sample| sample.grains.iter().map(|grain| grain.place));
+        let (points, grid) = match points {
+            FieldPoints::At(points) => (points.clone(), None),
+            FieldPoints::Grid(counts) if counts.contains(&0) => return Err(NoFields::EmptyGrid),
+            FieldPoints::Grid(counts) => FieldGrid::over(places(), width, |_| *counts).with_points(),
+            FieldPoints::Usual => FieldGrid::over(places(), width, usual_counts).with_points(),
+        };
+        let weight = Weight::new(width);
+        let fields = samples.iter().map(|sample| points.iter().map(|at| sample.fields(at, &weight)).collect());
+        let fields = fields.collect();
+        Ok(Self { width, times: samples.iter().map(|sample| sample.time).collect(), points, grid, fields })
+    }
+}
+
+/// Points along the sides of a box, 16 along the longest.
+fn usual_counts(sides: &Vec3) -> [usize; 3] {
+    let spacing = sides.max() / (USUAL_POINTS - 1) as f64;
+    std::array::from_fn(|axis| (sides[axis] / spacing).round() as usize + 1)
+}
+
+impl FieldGrid {
+    /// Over a box, which the places and a margin fill.
+    fn over(places: impl Iterator<Item = Vec3>, width: f64, counts: impl Fn(&Vec3) -> [usize; 3]) -> Self {
+        let mut bounds: Option<[Vec3; 2]> = None;
+        for place in places {
+            bounds = Some(bounds.map_or([place; 2], |[low, high]| [low.inf(&place), high.sup(&place)]));
+        }
+        let [low, high] = bounds.unwrap_or([Vec3::zeros(); 2]);
+        let (low, high) = (low - Vec3::repeat(MARGIN * width), high + Vec3::repeat(MARGIN * width));
+        let counts = counts(&(high - low));
+        let spacing =
+            |axis: usize| if counts[axis] > 1 { (high - low)[axis] / (counts[axis] - 1) as f64 } else { width };
+        let origin = |axis: usize| if counts[axis] > 1 { low[axis] } else { 0.5 * (low + high)[axis] };
+        Self { counts, origin: Vec3::from_fn(|axis, _| origin(axis)), spacing: Vec3::from_fn(|axis, _| spacing(axis)) }
+    }
+
+    fn with_points(self) -> (Vec<Vec3>, Option<Self>) {
+        let [nx, ny, nz] = self.counts;
+        let place = |at: [usize; 3]| self.origin + self.spacing.component_mul(&Vec3::from(at.map(|n| n as f64)));
+        let points = (0..nz).flat_map(|z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])));
+        (points.map(place).collect(), Some(self))
+    }
+}
+
+impl Serialize for FieldSurvey {
+    /// As columns: `t`, `x`, and each field as [sample][point][…].
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut table = serializer.serialize_struct("fields", 18)?;
+        table.serialize_field("width", &self.width)?;
+        table.serialize_field("t", &self.times)?;
+        table.serialize_field("x", &self.points.iter().map(vector).collect::<Vec<_>>())?;
+        table.serialize_field("density", &self.column(|it| it.density))?;
+        table.serialize_field("momentum", &self.column(|it| vector(&it.momentum)))?;
+        table.serialize_field("affine_momentum", &self.column(|it| rows(&it.affine_momentum)))?;
+        table.serialize_field("flux", &self.column(|it| third(&it.flux)))?;
+        table.serialize_field("kinetic", &self.column(|it| rows(&it.kinetic)))?;
+        table.serialize_field("micro_stress", &self.column(|it| rows(&it.micro_stress)))?;
+        table.serialize_field("contact_stress", &self.column(|it| rows(&it.contact_stress)))?;
+        table.serialize_field("hyperstress", &self.column(|it| third(&it.hyperstress)))?;
+        table.serialize_field("external", &self.column(|it| rows(&it.external)))?;
+        table.serialize_field("rate", &self.column(|it| rows(&it.rate)))?;
+        table.serialize_field("stress", &self.column(|it| rows(&it.stress)))?;
+        table.serialize_field("momentum_rate", &self.column(|it| vector(&it.momentum_rate)))?;
+        table.serialize_field("power", &self.column(|it| it.power))?;
+        table.serialize_field("residual", &self.column(|it| it.residual))?;
+        table.serialize_field("momentum_residual", &self.column(|it| it.momentum_residual))?;
+        table.end()
+    }
+}
+
+impl FieldSurvey {
+    fn column<T>(&self, value: impl Fn(&LocalFields) -> T) -> Vec<Vec<T>> {
+        self.fields.iter().map(|sample| sample.iter().map(&value).collect()).collect()
+    }
+}
+
+fn vector(vector: &Vec3) -> [f64; 3] {
+    (*vector).into()
+}
+
+fn rows(matrix: &Mat3) -> [[f64; 3]; 3] {
+    matrix.transpose().into()
+}
+
+/// The last index last.
+fn third(third: &Third) -> [[[f64; 3]; 3]; 3] {
+    std::array::from_fn(|a| std::array::from_fn(|b| std::array::from_fn(|c| third[c][(a, b)])))
+}

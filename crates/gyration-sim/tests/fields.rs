@@ -1,0 +1,132 @@
+//! Micromorphic fields: balances that close whatever bodies are and whatever is between them, and what is refused.
+
+use crate::runs::provenance;
+use gyration::tensor::Vec3;
+use gyration_record::Recording;
+use gyration_scene::Scene;
+use gyration_sim::{FieldPoints, FieldSurvey, Job, NoFields, Unwatched, open};
+use std::path::Path;
+
+/// The fields of a scene that is run.
+fn fields(scene: &Scene, width: f64, points: &FieldPoints) -> Result<FieldSurvey, NoFields> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.gyr");
+    Job::of(scene, &provenance()).record(&path, &mut Unwatched).unwrap();
+    FieldSurvey::of(&Recording::open(&path).unwrap(), width, points, 1)
+}
+
+fn scene(text: &str) -> Scene {
+    Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// The text of a scene that records what is between two.
+fn with_pairs(text: &str) -> String {
+    text.replace("time = ", "record = { pairs = true }\ntime = ")
+}
+
+/// The first samples of a scene of the gallery, with what is between two.
+fn begun(name: &str) -> Scene {
+    let plan = open(name, &[]).unwrap_or_else(|error| panic!("{error}")).built().plan;
+    let overrides = [format!("time.end={:?}", plan.end.min(3.0 * plan.sample)), "record.pairs=true".to_owned()];
+    open(name, &overrides).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn balances_close_in_scenes_of_all_kinds() {
+    // Rigid, affine, incompressible and contractile bodies; pins, guides, joints, springs, bonds, contacts, rings,
+    // fluids.
+    let names = [
+        "active-chain",
+        "affine-chain",
+        "basset",
+        "cells",
+        "contact-chain",
+        "crawl",
+        "gripper",
+        "jeffery",
+        "kagome",
+        "linkage",
+        "micromorphic",
+        "pendulum-chain",
+        "pile",
+        "pinned-strain",
+        "rattleback",
+        "soft-collision",
+        "stair",
+        "swimmer",
+        "top",
+        "wave-gap",
+    ];
+    for name in names {
+        let scene = begun(name);
+        let width = scene.built().model.bodies.iter().map(|body| body.size).fold(0.0, f64::max);
+        let found = fields(&scene, width, &FieldPoints::Grid([3, 2, 3])).unwrap();
+        for (time, fields) in found.times.iter().zip(&found.fields) {
+            let [affine, linear] =
+                fields.iter().fold([0.0_f64; 2], |[a, b], it| [a.max(it.scales[0]), b.max(it.scales[1])]);
+            for (point, it) in found.points.iter().zip(fields) {
+                assert!(it.residual <= 1e-9 * affine, "{name}, {time} s, {point}: {:e} of {affine:e}", it.residual);
+                let left = it.momentum_residual;
+                assert!(left <= 1e-9 * linear, "{name}, {time} s, {point}: {left:e} of {linear:e}");
+            }
+        }
+    }
+}
+
+/// Two soft cubes that a spring joins and that turn.
+const CUBES: &str = r#"
+world = { gravity = [0, 0, 0] }
+time = { end = 0.2, sample = 0.1 }
+[[body]]
+name = "a"
+shape = { box = { size = [0.1, 0.1, 0.1] } }
+density = 1000
+position = [0, 0, 0]
+velocity = [0, 1, 0]
+gradient_rate = [[0, 1, 0], [-2, 0, 0], [0, 0.5, 0]]
+affine = { material = { neo_hookean = { shear = "20 kPa" } }, viscosity = 3 }
+[[body]]
+name = "b"
+shape = { box = { size = [0.1, 0.1, 0.2] } }
+density = 500
+position = [0.3, 0, 0.1]
+affine = { material = { st_venant_kirchhoff = { lambda = 1e4, mu = 1e4 } } }
+[[spring]]
+between = ["a", "b"]
+points = [[0.05, 0.02, 0], [-0.05, 0, 0.05]]
+stiffness = 300
+rest_length = 0.1
+damping = 2
+"#;
+
+#[test]
+fn fields_over_all_space_have_the_sums_of_the_bodies() {
+    let scene = scene(CUBES);
+    let found = fields(&scene, 0.15, &FieldPoints::Grid([24, 24, 24])).unwrap();
+    let cell: f64 = found.grid.unwrap().spacing.iter().product();
+    let total =
+        |value: fn(&gyration_sim::fields::LocalFields) -> f64| cell * found.fields[2].iter().map(value).sum::<f64>();
+    let mass: f64 = scene.built().model.bodies.iter().map(|body| body.solid.mass.mass).sum();
+    // Two widths beyond the centres lie 0.954 of a bell on each side: most of it, not all.
+    assert!((0.75..1.0).contains(&(total(|it| it.density) / mass)));
+    // Momentum keeps what a velocity of 1 m/s gave to the first.
+    assert!((0.75..1.0).contains(&(total(|it| it.momentum.y) / scene.built().model.bodies[0].solid.mass.mass)));
+}
+
+#[test]
+fn recorded_pairs_are_those_of_the_replay() {
+    let at = FieldPoints::At(vec![Vec3::new(0.15, 0.01, 0.0)]);
+    let [with, without] = [with_pairs(CUBES), CUBES.to_owned()].map(|text| fields(&scene(&text), 0.1, &at).unwrap());
+    assert_eq!(with, without);
+    assert_ne!(with.fields[1][0].stress, gyration::tensor::Mat3::zeros());
+}
+
+#[test]
+fn what_cannot_be_averaged_is_refused() {
+    let text = format!("{CUBES}[[contact]]\nbetween = [\"a\", \"b\"]\nrepulsion = {{ alpha = 1e-9, nu = 6 }}\n");
+    let at = FieldPoints::At(vec![Vec3::zeros()]);
+    assert!(matches!(fields(&scene(&text), 0.1, &at), Err(NoFields::NoPairs)));
+    assert!(fields(&scene(&with_pairs(&text)), 0.1, &at).is_ok());
+    assert!(matches!(fields(&scene(CUBES), 0.0, &at), Err(NoFields::Width(_))));
+    assert!(matches!(fields(&scene(CUBES), 0.1, &FieldPoints::Grid([1, 0, 1])), Err(NoFields::EmptyGrid)));
+}
