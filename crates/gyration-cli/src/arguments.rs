@@ -1,8 +1,10 @@
 //! What may be written after `gyration`.
 
 mod fields;
+mod orbit;
 
 pub use fields::FieldArguments;
+pub use orbit::OrbitArguments;
 
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -53,6 +55,8 @@ pub enum Command {
     Continuum(ContinuumArguments),
     /// Print micromorphic fields of a recording: density, momenta, stresses, and how well their balances close
     Fields(FieldArguments),
+    /// Print a motion that repeats itself: period, start, multipliers, whether it is stable
+    Orbit(OrbitArguments),
     /// Print the resistance of bodies in a viscous fluid: the matrix from velocity and velocity gradient to force and
     /// moment
     Resistance(ResistanceArguments),

@@ -15,6 +15,7 @@ mod fields;
 mod full_disk;
 mod import;
 mod meeting_plots;
+mod orbit;
 mod python;
 mod remarks;
 mod resistance;

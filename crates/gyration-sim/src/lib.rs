@@ -22,6 +22,7 @@ mod island;
 mod looseness;
 pub mod modes;
 mod network;
+pub mod orbit;
 mod outcome;
 mod peaks;
 mod period;

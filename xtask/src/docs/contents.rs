@@ -45,6 +45,7 @@ const PARTS: [(&str, &[&str]); 7] = [
             "docs/modes.md",
             "docs/bands.md",
             "docs/continuum.md",
+            "docs/orbits.md",
             "docs/known-answers.md",
             "docs/published.md",
         ],

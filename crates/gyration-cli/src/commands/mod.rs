@@ -12,6 +12,7 @@ mod import;
 mod man;
 mod modes;
 mod new;
+mod orbit;
 mod picture;
 mod plot;
 #[cfg(feature = "view")]
@@ -42,6 +43,7 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::Bands(arguments) => bands::execute(&arguments),
         Command::Continuum(arguments) => continuum::execute(&arguments),
         Command::Fields(arguments) => fields::execute(&arguments),
+        Command::Orbit(arguments) => orbit::execute(&arguments),
         Command::Resistance(arguments) => resistance::execute(&arguments),
         Command::Scenes(arguments) => scenes::execute(&arguments),
         Command::New(arguments) => new::execute(&arguments),

@@ -13,6 +13,7 @@
 mod blocks;
 mod collocation;
 mod difference;
+mod flow;
 mod history;
 mod kinks;
 mod levels;
@@ -24,6 +25,10 @@ mod tangent;
 mod variation;
 mod works;
 
+pub(crate) use flow::{Flow, NoFlow, each_state};
+pub(crate) use probe::SCALES;
+pub(crate) use quantity::Quantities;
+
 use crate::outcome::Outcome;
 use crate::plan::RunPlan;
 use crate::ports::RunError;
@@ -33,7 +38,6 @@ use crate::run::Simulation;
 use gyration_ode::Integrator;
 use gyration_scene::Scene;
 use number::SceneNumber;
-use quantity::Quantities;
 use tangent::Tangent;
 use variation::SceneVariation;
 

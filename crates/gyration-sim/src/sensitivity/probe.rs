@@ -11,7 +11,7 @@ use gyration_ode::System as _;
 
 /// Scales of the state, lengths being gaps: what changes by one of them has changed altogether. A thousandth of the
 /// body's own size and speed counts at least.
-pub(super) const SCALES: Tolerance = Tolerance { rtol: 10.0, atol: 1e-2 };
+pub(crate) const SCALES: Tolerance = Tolerance { rtol: 10.0, atol: 1e-2 };
 /// The state is varied along S by this part of its scales.
 const PROBE: f64 = 5e-4;
 

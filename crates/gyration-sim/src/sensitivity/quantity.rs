@@ -10,7 +10,7 @@ use gyration::model::Model;
 use gyration::state::State;
 
 /// Columns of a recording, picked from its rows.
-pub(super) struct Quantities {
+pub(crate) struct Quantities {
     fields: Fields,
     scratch: RowScratch,
     /// Where in a row each stands.
@@ -55,8 +55,18 @@ impl Quantities {
         self.places.iter().map(|place| row[*place]).collect()
     }
 
+    /// Their values in a state.
+    ///
+    /// # Errors
+    /// `Inadmissible` where the state is outside the model.
+    pub fn at(&mut self, model: &Model, state: &State) -> Result<Vec<f64>, Inadmissible> {
+        let Self { fields, scratch, places, .. } = self;
+        fields.fill(model, &mut Workspace::default(), state, None, scratch)?;
+        Ok(places.iter().map(|place| scratch.row[*place]).collect())
+    }
+
     /// dr/dp in a state that changes along S and W; `scales` are those of state and works.
-    pub fn derivative(
+    pub(super) fn derivative(
         &mut self,
         model: &Model,
         state: &State,

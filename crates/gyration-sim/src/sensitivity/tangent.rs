@@ -2,11 +2,11 @@
 //!
 //!   S′ = J(y, t) S + ∂f/∂p,   S(0) = ∂y₀/∂p,   W′ = ∂g/∂y S + ∂g/∂p,   W(0) = 0
 //!
-//! a column for each number, and one without a number: a perturbation of the start in all directions, whose growth
-//! tells how many digits the motion has left. y comes from the dense output of the run, whose error is that of its
-//! steps; the linear equation takes steps of its own (`collocation`), shorter where the run does not resolve it (a body
-//! at rest takes long steps, and what is varied about it may swing), and over several steps of the run where these are
-//! short (`history`). Works are quadratures by the same nodes (`works`).
+//! a column for each number or direction of the start, and one besides: a perturbation of the start in all directions,
+//! whose growth tells how many digits the motion has left. y comes from the dense output of the run, whose error is
+//! that of its steps; the linear equation takes steps of its own (`collocation`), shorter where the run does not
+//! resolve it (a body at rest takes long steps, and what is varied about it may swing), and over several steps of the
+//! run where these are short (`history`). Works are quadratures by the same nodes (`works`).
 
 use super::blocks::{apart, together};
 use super::collocation::{self, CollocationRule, CollocationStep, NODES, NodeValues};
@@ -62,14 +62,22 @@ pub(super) struct Nodes {
     pub powers: Vec<DMatrix<f64>>,
 }
 
+/// What a column follows.
+pub(super) enum Followed {
+    /// A number, with what its kinks do.
+    Number(Box<(SceneVariation, Kinks)>),
+    /// A direction of the start.
+    Direction,
+}
+
 /// S and W after a time of the run.
 pub(super) struct Tangent<'a> {
     /// The model.
     pub(super) model: &'a Model,
     pub(super) system: ModelSystem,
     rule: CollocationRule,
-    /// The numbers, with what their kinks do; none for those without a derivative.
-    pub(super) variations: Vec<Result<(SceneVariation, Kinks), Meaningless>>,
+    /// What the columns follow; none for those without a derivative.
+    pub(super) columns: Vec<Result<Followed, Meaningless>>,
     /// S; the last column is the perturbation.
     pub(super) state: DMatrix<f64>,
     /// W.
@@ -99,33 +107,56 @@ impl<'a> Tangent<'a> {
         plan: &RunPlan,
         variations: Vec<Result<SceneVariation, Meaningless>>,
     ) -> Result<Self, RunError> {
-        let outside = |left| RunError::at_start(Stop::by_inadmissible(model, start.time, &left));
-        let mut system = ModelSystem::new(model.clone(), start, SCALES).map_err(outside)?;
-        let (n, columns) = (model.dimension(), variations.len() + 1);
-        let mut scales = vec![0.0; n + model.works().len()];
-        fill_scales(&mut system, start, &mut scales);
-        let mut state = DMatrix::zeros(n, columns);
-        let mut prepared = Vec::new();
+        let mut this = Self::begun(model, start, plan, variations.len())?;
+        let n = model.dimension();
         for (column, variation) in variations.into_iter().enumerate() {
-            prepared.push(variation.and_then(|mut variation| {
-                let found = variation.start(&scales[..n]).map_err(|fault| meaningless(model, 0.0, &fault))?;
+            let followed = variation.and_then(|mut variation| {
+                let found = variation.start(&this.scales[..n]).map_err(|fault| meaningless(model, 0.0, &fault))?;
                 let kinks =
                     Kinks::of(model, plan.end, &mut variation).map_err(|fault| meaningless(model, 0.0, &fault))?;
-                state.column_mut(column).copy_from_slice(&found);
-                Ok((variation, kinks))
-            }));
+                this.state.column_mut(column).copy_from_slice(&found);
+                Ok(Followed::Number(Box::new((variation, kinks))))
+            });
+            this.columns.push(followed);
         }
+        Ok(this)
+    }
+
+    /// Starts from a state, to follow directions of it: the columns of a matrix.
+    ///
+    /// # Errors
+    /// As [`Tangent::new`].
+    pub fn of_directions(
+        model: &'a Model,
+        start: &State,
+        plan: &RunPlan,
+        directions: &DMatrix<f64>,
+    ) -> Result<Self, RunError> {
+        let mut this = Self::begun(model, start, plan, directions.ncols())?;
+        this.state.columns_mut(0, directions.ncols()).copy_from(directions);
+        this.columns.extend((0..directions.ncols()).map(|_| Ok(Followed::Direction)));
+        Ok(this)
+    }
+
+    /// With room for so many columns, and the perturbation behind them.
+    fn begun(model: &'a Model, start: &State, plan: &RunPlan, columns: usize) -> Result<Self, RunError> {
+        let outside = |left| RunError::at_start(Stop::by_inadmissible(model, start.time, &left));
+        let mut system = ModelSystem::new(model.clone(), start, SCALES).map_err(outside)?;
+        let n = model.dimension();
+        let mut scales = vec![0.0; n + model.works().len()];
+        fill_scales(&mut system, start, &mut scales);
+        let mut state = DMatrix::zeros(n, columns + 1);
         // Signs in no order, so that no mode is left out.
         let signs = (0..n).map(|i| if (i * i + i / 3) % 5 < 2 { 1.0 } else { -1.0 });
         for (row, sign) in signs.enumerate() {
-            state[(row, columns - 1)] = sign * scales[row];
+            state[(row, columns)] = sign * scales[row];
         }
-        let works = DMatrix::zeros(model.works().len(), columns);
+        let works = DMatrix::zeros(model.works().len(), columns + 1);
         Ok(Self {
             model,
             system,
             rule: CollocationRule::new(),
-            variations: prepared,
+            columns: Vec::with_capacity(columns),
             state,
             works,
             time: start.time,
@@ -152,7 +183,10 @@ impl<'a> Tangent<'a> {
 
     /// How far the derivatives of the equations by each number are in doubt.
     pub fn doubts(&self) -> impl Iterator<Item = f64> {
-        self.variations.iter().map(|variation| variation.as_ref().map_or(0.0, |(variation, _)| variation.doubt()))
+        self.columns.iter().map(|followed| match followed {
+            Ok(Followed::Number(number)) => number.0.doubt(),
+            Ok(Followed::Direction) | Err(_) => 0.0,
+        })
     }
 
     /// Looks at the state that has been come to, in the last step of the run.
@@ -169,7 +203,9 @@ impl<'a> Tangent<'a> {
     /// Why they mean nothing.
     pub fn derivative(&mut self, column: usize, quantities: &mut Quantities) -> Result<Vec<f64>, Meaningless> {
         let model = self.model;
-        let (variation, _) = self.variations[column].as_mut().map_err(|lost| lost.clone())?;
+        let followed = self.columns[column].as_mut().map_err(|lost| lost.clone())?;
+        let Followed::Number(number) = followed else { unreachable!("quantities are differentiated by numbers") };
+        let variation = &mut number.0;
         let direction: Vec<f64> = self.state.column(column).iter().chain(&self.works.column(column)).copied().collect();
         let found = quantities.derivative(model, &self.at, &direction, &self.scales, variation);
         found.map_err(|fault| meaningless(model, self.time, &fault))
@@ -210,7 +246,7 @@ impl<'a> Tangent<'a> {
     }
 
     fn is_followed(&self) -> bool {
-        self.variations.iter().any(Result::is_ok)
+        self.columns.iter().any(Result::is_ok)
     }
 
     /// Tries a step towards a time; where it comes to none, all is lost.
@@ -290,8 +326,9 @@ impl<'a> Tangent<'a> {
         let (n, works) = (self.state.nrows(), self.works.nrows());
         let mut forcing = DMatrix::zeros(n, self.state.ncols());
         let mut forcing_works = DMatrix::zeros(works, self.state.ncols());
-        for (column, variation) in self.variations.iter_mut().enumerate() {
-            let Ok((varied, kinks)) = variation else { continue };
+        for (column, followed) in self.columns.iter_mut().enumerate() {
+            let Ok(Followed::Number(number)) = followed else { continue };
+            let (varied, kinks) = &mut **number;
             for (time, weight) in kinks.beside(self.at.time).into_iter().filter(|(_, weight)| *weight != 0.0) {
                 match varied.rates(time, &self.at.bodies, &self.scales) {
                     Ok(found) => {
@@ -301,7 +338,7 @@ impl<'a> Tangent<'a> {
                         own.iter_mut().zip(&found[n..]).for_each(|(sum, value)| *sum += weight * value);
                     }
                     Err(fault) => {
-                        *variation = Err(meaningless(model, self.at.time, &fault));
+                        *followed = Err(meaningless(model, self.at.time, &fault));
                         self.state.column_mut(column).fill(0.0);
                         forcing.column_mut(column).fill(0.0);
                         break;
@@ -318,9 +355,13 @@ impl<'a> Tangent<'a> {
         let (n, columns) = self.state.shape();
         let (scales, energies) = self.scales.split_at(n);
         let of_column = |column: usize| {
-            let (least, weight, noise) = match self.variations.get(column) {
+            let (least, weight, noise) = match self.columns.get(column) {
                 Some(Err(_)) => return 0.0,
-                Some(Ok((variation, _))) => (NEGLIGIBLE / (self.tolerance * variation.scale()), 1.0, variation.noise()),
+                Some(Ok(Followed::Number(number))) => {
+                    let variation = &number.0;
+                    (NEGLIGIBLE / (self.tolerance * variation.scale()), 1.0, variation.noise())
+                }
+                Some(Ok(Followed::Direction)) => (0.0, 1.0, 0.0),
                 None => (0.0, self.tolerance / GROWTH, 0.0),
             };
             let end = largest(&step.values[STAGES - 1], column, scales);
@@ -350,8 +391,8 @@ impl<'a> Tangent<'a> {
 
     pub(super) fn lose_all(&mut self, reason: String) {
         let time = self.time;
-        for variation in self.variations.iter_mut().filter(|variation| variation.is_ok()) {
-            *variation = Err(Meaningless { from: time, reason: reason.clone() });
+        for followed in self.columns.iter_mut().filter(|followed| followed.is_ok()) {
+            *followed = Err(Meaningless { from: time, reason: reason.clone() });
         }
     }
 }

@@ -8,7 +8,7 @@
 use super::collocation::CollocationStep;
 use super::kinks::ends_at_kink;
 use super::probe::{along, reason};
-use super::tangent::{Nodes, Tangent};
+use super::tangent::{Followed, Nodes, Tangent};
 use gyration::Inadmissible;
 use gyration_ode::{Integrator, System as _};
 use nalgebra::DMatrix;
@@ -21,8 +21,8 @@ impl Tangent<'_> {
     pub(super) fn powers(&mut self, step: &CollocationStep, nodes: &Nodes) -> Result<Vec<DMatrix<f64>>, Inadmissible> {
         let mut all = nodes.powers.clone();
         for ((powers, state), values) in all.iter_mut().zip(&nodes.states).zip(&step.values) {
-            for column in 0..self.variations.len() {
-                if self.variations[column].is_err() {
+            for column in 0..self.columns.len() {
+                if self.columns[column].is_err() {
                     continue;
                 }
                 let direction: Vec<f64> = values.column(column).iter().copied().collect();
@@ -43,9 +43,9 @@ impl Tangent<'_> {
             return;
         }
         self.reach(run.time());
-        let moves = self.variations.iter().any(|variation| {
-            let kinks = variation.as_ref().map(|(_, kinks)| kinks);
-            kinks.is_ok_and(|kinks| kinks.has_come(self.time))
+        let moves = self.columns.iter().any(|followed| match followed {
+            Ok(Followed::Number(number)) => number.1.has_come(self.time),
+            Ok(Followed::Direction) | Err(_) => false,
         });
         if moves {
             self.look(run);
@@ -56,9 +56,9 @@ impl Tangent<'_> {
     }
 
     fn jump(&mut self) -> Result<(), Inadmissible> {
-        for (column, variation) in self.variations.iter_mut().enumerate() {
-            let Ok((_, kinks)) = variation else { continue };
-            let Some(kink) = kinks.come_to(self.time) else { continue };
+        for (column, followed) in self.columns.iter_mut().enumerate() {
+            let Ok(Followed::Number(number)) = followed else { continue };
+            let Some(kink) = number.1.come_to(self.time) else { continue };
             let n = self.at.bodies.len();
             let mut sides =
                 [-1.0, 1.0].map(|side| (kink.time + side * BESIDE * kink.time, vec![0.0; n + self.works.nrows()]));

@@ -1,0 +1,50 @@
+//! The arguments of `gyration orbit`.
+
+use super::SceneArguments;
+use clap::Args;
+
+/// `gyration orbit`
+#[derive(Debug, Args)]
+pub struct OrbitArguments {
+    /// The scene; the search begins at its start.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// The period [s]; beside --energy or --amplitude one to begin with
+    #[arg(long, value_name = "T", value_parser = positive)]
+    pub period: Option<f64>,
+    /// The energy of the orbit [J]
+    #[arg(long, value_name = "E", conflicts_with = "amplitude", allow_hyphen_values = true)]
+    pub energy: Option<f64>,
+    /// A column of the start and its value: body.a.x=0.1
+    #[arg(long, value_name = "COLUMN=VALUE", value_parser = amplitude)]
+    pub amplitude: Option<(String, f64)>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite());
+    number.ok_or_else(|| format!("`{text}` is no time above zero in seconds"))
+}
+
+fn amplitude(text: &str) -> Result<(String, f64), String> {
+    let found = text.split_once('=').and_then(|(column, value)| Some((column.trim(), value.trim().parse().ok()?)));
+    let found = found.filter(|(column, value): &(&str, f64)| !column.is_empty() && value.is_finite());
+    found.map(|(column, value)| (column.to_owned(), value)).ok_or_else(|| format!("`{text}` is not as body.a.x=0.1"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn amplitudes_are_a_column_and_a_number() {
+        assert_eq!(amplitude("body.a.x = -0.1"), Ok(("body.a.x".to_owned(), -0.1)));
+        for wrong in ["", "body.a.x", "=1", "body.a.x=much", "body.a.x=inf"] {
+            assert!(amplitude(wrong).is_err(), "{wrong}");
+        }
+        assert!(positive("0").is_err() && positive("-1").is_err() && positive("inf").is_err());
+        assert_eq!(positive("2.5"), Ok(2.5));
+    }
+}

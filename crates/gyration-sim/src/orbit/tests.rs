@@ -1,0 +1,75 @@
+//! Orbits: a point in a well with x⁴, by each choice; what is no orbit.
+
+use crate::survey::{OrbitChoice, OrbitSurvey};
+use gyration_scene::Scene;
+use std::path::Path;
+
+/// ẍ + x + x³ = 0; nothing holds it across.
+const WELL: &str = r#"
+world = { gravity = [0, 0, 0] }
+time = { end = 8, sample = 1 }
+[[body]]
+name = "a"
+shape = { points = [{ mass = 1, at = [0, 0, 0] }] }
+position = [0.9, 0, 0]
+potential = "0.5*x^2 + 0.25*x^4"
+"#;
+
+/// 4 K(m = 1/4)/√2, from x = 1.
+const PERIOD: f64 = 4.768022029;
+
+fn orbit(text: &str, choice: &OrbitChoice) -> Result<OrbitSurvey, String> {
+    let scene = Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    OrbitSurvey::of(&scene, choice)
+}
+
+#[test]
+fn an_orbit_has_its_period_whatever_chooses_it() {
+    let amplitude = OrbitChoice::Amplitude("body.a.x".into(), 1.0, None);
+    for choice in [amplitude, OrbitChoice::Energy(0.75, None), OrbitChoice::Period(PERIOD)] {
+        let found = orbit(WELL, &choice).unwrap();
+        assert!((found.period - PERIOD).abs() < 2e-9, "{choice:?}: {}", found.period);
+        assert!((found.energy - 0.75).abs() < 1e-8 && found.misfit < 1e-9, "{choice:?}: {found:?}");
+        assert!(found.stable, "{choice:?}: {:?}", found.multipliers);
+    }
+    let nearest = orbit(WELL, &OrbitChoice::Nearest).unwrap();
+    assert!((nearest.start["a"].position[0] - 0.9).abs() < 1e-3, "{nearest:?}");
+}
+
+#[test]
+fn bodies_that_are_kept_have_the_multipliers_that_they_can_have() {
+    // A rod on a hinge: an angle and its rate; a box without volume change: 2 · 11 numbers and its centre among them.
+    let hinge = r#"
+time = { end = 2, sample = 1 }
+[[body]]
+name = "a"
+shape = { box = { size = [0.05, 0.05, 0.4] } }
+density = 500
+position = [0, 0, -0.2]
+velocity = [-0.2, 0, 0]
+angular_velocity = [0, 1, 0]
+[[joint]]
+name = "h"
+between = ["space", "a"]
+kind = "hinge"
+points = [[0, 0, 0], [0, 0, 0.2]]
+axis = [0, 1, 0]
+"#;
+    let found = orbit(hinge, &OrbitChoice::Nearest).unwrap();
+    assert_eq!(found.multipliers.len(), 2, "{:?}", found.multipliers);
+    assert!(found.stable && found.misfit < 1e-9, "{found:?}");
+    // A swing to 0.27 rad takes longer than a small one, 1.037 s.
+    assert!((1.037..1.06).contains(&found.period), "{}", found.period);
+}
+
+#[test]
+fn what_is_no_orbit_is_told() {
+    let driven = WELL.replace("0.25*x^4", "0.25*x^4 - 0.1*x*cos(t)");
+    let said = orbit(&driven, &OrbitChoice::Amplitude("a.x".into(), 1.0, Some(6.0))).unwrap_err();
+    assert!(said.contains("depends on time"), "{said}");
+    let free = WELL.replace("potential = \"0.5*x^2 + 0.25*x^4\"", "velocity = [1, 0, 0]");
+    let said = orbit(&free, &OrbitChoice::Nearest).unwrap_err();
+    assert!(said.contains("does not come back"), "{said}");
+    let said = orbit(WELL, &OrbitChoice::Amplitude("body.b.x".into(), 1.0, None)).unwrap_err();
+    assert!(said.contains("the columns are"), "{said}");
+}
