@@ -14,6 +14,7 @@ pub mod body;
 pub mod contact;
 pub mod contractile;
 pub mod dynamics;
+mod ellipsoid_moments;
 pub mod extended;
 pub mod fluid;
 pub mod homogeneous;

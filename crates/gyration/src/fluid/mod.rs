@@ -3,7 +3,6 @@
 //! ```text
 //! ambient      the fluid and the flow that it has far from the bodies
 //! history      the history force as loads, and its relaxation modes
-//! moments      integrals of the ellipsoid's shape, without loss of digits from needle to disc
 //! ellipsoid    force and stress of the fluid on an ellipsoid that deforms in a linear flow, and their derivatives
 //! immersed     what the fluid does to a body that deforms, whatever its form
 //! inclusion    a body in the fluid, and the loads on one that deforms as an ellipsoid
@@ -25,7 +24,6 @@ mod history;
 mod immersed;
 mod inclusion;
 mod lattice;
-mod moments;
 mod reference;
 mod stretch;
 mod surface;
@@ -40,6 +38,5 @@ pub use fixed::{DragSlopes, FixedForm, RigidDrag};
 pub use history::{History, HistoryLoads};
 pub use immersed::Immersed;
 pub use inclusion::{Form, ImmersedEllipsoid, Inclusion, MOST_SLENDER, SurfaceForm};
-pub use moments::EllipsoidMoments;
 pub use surface::ImmersedSurface;
 pub use table::{NoMatrix, ResistanceSource, ResistanceTable, Resolution, UnresolvedForm, largest_error};

@@ -1,4 +1,4 @@
-//! Integrals of the shape of an ellipsoid that slow flow about it depends on.
+//! Integrals of the shape of an ellipsoid on which its gravity and slow flow about it depend.
 //!
 //!   b_i = 1/(a_i² + s),  Δ² = ∏ (a_i² + s),  V = a₁a₂a₃
 //!   L_i  = (V/2) ∫₀^∞ b_i ds/Δ          Σ L_i = 1
@@ -28,7 +28,7 @@ const LANES: usize = 4;
 
 /// The integrals of an ellipsoid.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct EllipsoidMoments {
+pub(crate) struct EllipsoidMoments {
     /// L_i.
     pub second: [f64; 3],
     /// n_ij, symmetric \[1/m²\].
