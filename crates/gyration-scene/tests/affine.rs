@@ -285,12 +285,12 @@ fn what_is_recorded_on_request_stands_beside_the_plan() {
     let words = "velocity_gradient affine_momentum_total affine_moment moment_power comoving_momentum momentum_residual \
                  principal_stretches rotation cauchy_stress stress force_total moment_total force_by_kind moment_by_kind \
                  affine_moment_total friction_moment kinetic_tensor canonical_momentum kinetic_energy elastic_gradient \
-                 elastic_stress eshelby";
+                 elastic_stress eshelby spin vorticity";
     let quoted: Vec<String> = words.split(' ').map(|word| format!("\"{word}\"")).collect();
     let asked = scene(&format!("[record]\nquantities = [{}]\norigin = [0, 0, \"2 cm\"]", quoted.join(", ")));
     let Record { quantities, origin, .. } = &asked.built().record;
     assert_eq!(*origin, Vec3::new(0.0, 0.0, 0.02));
-    assert_eq!((quantities.len(), quantities[9], quantities[21]), (22, Recorded::Stress, Recorded::Eshelby));
+    assert_eq!((quantities.len(), quantities[9], quantities[21]), (24, Recorded::Stress, Recorded::Eshelby));
     assert_resolves_to_itself(&asked);
 }
 

@@ -42,6 +42,10 @@ pub enum Recorded {
     PrincipalStretches,
     /// The rotation R of P = R U.
     Rotation,
+    /// Angular velocity of L of P = L D Rᵀ, the frame of the principal axes in space (rad/s).
+    Spin,
+    /// Angular velocity of R of P = L D Rᵀ, the frame of the principal axes in the reference placement (rad/s).
+    Vorticity,
     /// The Cauchy stress S Pᵀ/det P (Pa).
     CauchyStress,
     /// The first Piola stress S (Pa).

@@ -119,7 +119,7 @@ macro_rules! by_kind {
 
 /// All but those told kind by kind, in the order in which they are recorded.
 #[rustfmt::skip]
-static FIELDS: [ExtraField; 29] = [
+static FIELDS: [ExtraField; 31] = [
     strain!(VelocityGradient, "velocity_gradient", "1/s",
         "velocity gradient L = Pdot P^-1", Matrix, &[], velocity_gradient),
     strain!(AffineMomentumTotal, "affine_momentum_total", "kg m2/s",
@@ -133,6 +133,10 @@ static FIELDS: [ExtraField; 29] = [
     strain!(PrincipalStretches, "principal_stretches", "1",
         "principal stretches, descending", Vector, &[], principal_stretches),
     strain!(Rotation, "rotation", "1", "rotation R of P = R U", Matrix, &[], rotation),
+    strain!(Spin, "spin", "rad/s",
+        "angular velocity of L, P = L D R^T, in spatial axes", Vector, vector!("spin"), spin),
+    strain!(Vorticity, "vorticity", "rad/s",
+        "angular velocity of R, P = L D R^T, in reference axes", Vector, vector!("vorticity"), vorticity),
     strain!(CauchyStress, "cauchy_stress", "Pa", "Cauchy stress S P^T/det P", Matrix, &[], cauchy_stress),
     strain!(Stress, "stress", "Pa", "first Piola stress S; the mean stress of a rigid body", Matrix, &[], stress),
     contact!(NormalForce, "normal_force", "contact forces along their normals, summed", Scalar, normal),

@@ -8,11 +8,12 @@
 //! weight too. The balance takes the reaction of a guide with it. The mean stress of a rigid body is the one that its
 //! balance asks for, S = (M − P̈ J)/V: its S Pᵀ is then symmetric as well. Of a body without inertia T and its
 //! derivative by the metric are zero, as P̈ is; its momenta are told all the same. `elasticity` has what the material
-//! does. Source: Sławianowski (1975), 2.7–3.9, 4.6–4.13; `docs/theory-affine.md`, `docs/equations.md`.
+//! does, `two_polar` how the frames of P = L D Rᵀ turn. Source: Sławianowski (1975), 2.7–3.9, 4.6–4.13; `docs/theory-affine.md`, `docs/equations.md`.
 
 mod elasticity;
 mod interior;
 mod local;
+mod two_polar;
 
 pub use elasticity::Elasticity;
 pub use local::BodyBalance;
@@ -23,6 +24,7 @@ use crate::inadmissible::Inadmissible;
 use crate::instant::BodyAt;
 use crate::tensor::{Mat3, Polar, Vec3};
 use interior::Interior;
+use two_polar::spin_and_vorticity;
 
 /// What the theory of homogeneous strains tells of one body at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +45,10 @@ pub struct HomogeneousObservation {
     pub principal_stretches: Vec3,
     /// R, P = R U.
     pub rotation: Mat3,
+    /// [ω]× = L̇ Lᵀ of P = L D Rᵀ, in the axes of space [rad/s]; NaN where two principal stretches meet.
+    pub spin: Vec3,
+    /// [ϑ]× = Ṙ Rᵀ, in the axes of the reference placement [rad/s]; NaN where two principal stretches meet.
+    pub vorticity: Vec3,
     /// S, first Piola stress with the pressure [Pa]; NaN without a volume.
     pub stress: Mat3,
     /// σ = S Pᵀ/det P [Pa]; NaN without a volume.
@@ -93,6 +99,7 @@ pub fn observe_homogeneous(
     let polar = Polar::of(p);
     let inverse = p.try_inverse().unwrap_or(Mat3::from_element(f64::NAN));
     let velocity_gradient = rate * inverse;
+    let [spin, vorticity] = spin_and_vorticity(p, rate);
     let affine_moment = p * moment.transpose();
     let momentum = p * body.solid.mass.euler_tensor * rate.transpose();
     let arm = at.model.in_space(at.index, &motion.placement.position) - origin;
@@ -113,6 +120,8 @@ pub fn observe_homogeneous(
         ),
         principal_stretches: stretches.into(),
         rotation: polar.rotation,
+        spin,
+        vorticity,
         stress,
         cauchy_stress: stress * p.transpose() / p.determinant(),
         total_force: loads.force,
