@@ -33,6 +33,7 @@ mod case_orbits;
 mod case_own_forces;
 mod case_pinned_audit;
 mod case_reach;
+mod case_self_gravity;
 mod case_slender_inclusion;
 mod case_slopes;
 mod case_small_gaps;

@@ -96,6 +96,8 @@ quantities! {
     Stiffness "N/m" "2 kN/m";
     /// Damping of a spring \[N s/m\].
     SpringDamping "N s/m" "0.1 N s/m";
+    /// Constant of gravitation \[N m²/kg²\].
+    GravitationalConstant "N m^2/kg^2" "6.674e-11 N m^2/kg^2";
 }
 
 /// A number of any dimension, in SI units once read: a constant of the expressions.

@@ -2,6 +2,7 @@
 
 use crate::common::{BALL, TIME, assert_error, assert_resolves_to_itself};
 use gyration::kinematics::Placement;
+use gyration::load::SelfGravity;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_expression::Scratch;
 use gyration_scene::Scene;
@@ -70,6 +71,32 @@ fn constants_that_mean_something_else_are_refused() {
     for (lines, key, message) in rows {
         assert_error(&format!("{TIME}{BALL}potential = \"x^2\"\n{lines}\n"), key, message, "");
     }
+}
+
+#[test]
+fn gravity_of_their_own_is_that_of_ellipsoids_that_deform() {
+    let world = "[world]\nself_gravity = { constant = \"2e-3 N m^2/kg^2\" }\n";
+    let scene = |kind: &str| {
+        let text = format!("{TIME}{world}{BALL}{kind}\n");
+        Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"))
+    };
+    let expected = SelfGravity::new(2e-3, 1.0, &Vec3::repeat(0.1));
+    for (kind, gravity) in
+        [("affine = {}", Some(expected)), ("contractile = { contraction_viscosity = 1 }", Some(expected)), ("", None)]
+    {
+        assert_eq!(scene(kind).built().model.bodies[0].own.self_gravity, gravity, "{kind}");
+    }
+    assert_resolves_to_itself(&scene("affine = {}"));
+    let boxed = "[[body]]\nname = \"b\"\nmass = 1\n";
+    let text = format!("{TIME}{world}{boxed}shape = §{{ box = {{ size = [1, 2, 3] }} }}\naffine = {{}}\n");
+    assert_error(&text, "body.b.shape", "spheres and ellipsoids alone", "`rigid`");
+    let given = "mass_properties = §{ mass = 1, euler_tensor = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }\naffine = {}\n";
+    let text = format!("{TIME}{world}[[body]]\nname = \"b\"\nshape = {{ sphere = {{ radius = 1 }} }}\n{given}");
+    assert_error(&text, "body.b.mass_properties", "spread evenly", "`density`");
+    let text = format!("{TIME}[world]\nself_gravity = {{ constant = §0 }}\n{BALL}");
+    assert_error(&text, "world.self_gravity.constant", "greater than", "");
+    let text = format!("{TIME}[world]\nself_gravity = {{ constant = §\"1 m/s^2\" }}\n{BALL}");
+    assert_error(&text, "world.self_gravity.constant", "N m^2/kg^2", "");
 }
 
 #[test]

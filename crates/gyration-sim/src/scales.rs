@@ -123,6 +123,7 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
             | Load::PointForce(_)
             | Load::OwnFriction(_)
             | Load::MassFriction(_)
+            | Load::SelfGravity(_)
             | Load::Fluid(..) => 0.0,
         };
         Ok::<(), Infallible>(())

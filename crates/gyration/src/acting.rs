@@ -10,7 +10,7 @@ use crate::joint::JointEnd;
 use crate::ledger::{Energy, Work};
 use crate::load::{
     Applied, BodyForce, BondEnd, Couple, InteractionEnd, LinearResistance, Loads, MassFriction, OwnFriction, Party,
-    PointForce, Potential, SpringEnd,
+    PointForce, Potential, SelfGravity, SpringEnd,
 };
 use crate::neighbours::{Pair, PairRule};
 use crate::pair::{PairLoads, PairSlopes};
@@ -87,7 +87,8 @@ pub enum LoadKind {
     Drag,
     /// Friction that is linear in the velocities of the body.
     Friction,
-    /// Joints, and what a scene or a controller writes: couples, potentials, body forces, gyroscopic loads.
+    /// Joints, gravity of its own, and what a scene or a controller writes: couples, potentials, body forces,
+    /// gyroscopic loads.
     Load,
 }
 
@@ -125,6 +126,8 @@ pub enum Load<'a> {
     OwnFriction(&'a OwnFriction),
     /// Friction in proportion to the mass.
     MassFriction(&'a MassFriction),
+    /// The gravity of the body on itself.
+    SelfGravity(&'a SelfGravity),
     /// The fluid around an inclusion.
     Fluid(&'a Fluid, &'a Inclusion),
 }
@@ -189,6 +192,9 @@ impl<'a> Load<'a> {
         if let Some(absorption) = &body.own.absorption {
             each(Self::MassFriction(absorption))?;
         }
+        if let Some(gravity) = &body.own.self_gravity {
+            each(Self::SelfGravity(gravity))?;
+        }
         if let (Some(fluid), Some(inclusion)) = (fluid, &body.inclusion) {
             each(Self::Fluid(fluid, inclusion))?;
         }
@@ -198,7 +204,7 @@ impl<'a> Load<'a> {
     /// Whether it has a force beside those of the contacts.
     pub fn pulls(&self) -> bool {
         match self {
-            Self::Contact(_) | Self::Pair(_) | Self::Couple(_) => false,
+            Self::Contact(_) | Self::Pair(_) | Self::Couple(_) | Self::SelfGravity(_) => false,
             Self::Spring(_)
             | Self::Bond(_)
             | Self::Joint(_)
@@ -228,7 +234,8 @@ impl<'a> Load<'a> {
             | Self::Resistance(_)
             | Self::Potential(_)
             | Self::BodyForce(_)
-            | Self::PointForce(_) => LoadKind::Load,
+            | Self::PointForce(_)
+            | Self::SelfGravity(_) => LoadKind::Load,
         }
     }
 
@@ -263,7 +270,7 @@ impl<'a> Load<'a> {
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
             Self::Fluid(..) => vec![Work::Fluid],
             Self::Potential(potential) if !potential.is_energy() => vec![Work::Load],
-            Self::Bond(_) | Self::Resistance(_) | Self::Potential(_) => Vec::new(),
+            Self::Bond(_) | Self::Resistance(_) | Self::Potential(_) | Self::SelfGravity(_) => Vec::new(),
         }
     }
 
@@ -275,7 +282,7 @@ impl<'a> Load<'a> {
                 central.then_some(Energy::Contact)
             }
             Self::Pair(_) => Some(PAIR_ENERGY),
-            Self::Spring(_) => Some(Energy::Load),
+            Self::Spring(_) | Self::SelfGravity(_) => Some(Energy::Load),
             Self::Bond(end) => end.interaction.is_energy().then_some(Energy::Load),
             Self::Potential(potential) => potential.is_energy().then_some(Energy::Load),
             Self::Joint(end) => end.interaction.motor.stop.map(|_| Energy::Load),

@@ -6,6 +6,7 @@ use super::guide::guide;
 use super::kind::WrittenDeformation;
 use super::mass::{MassSource, lone_point, size};
 use super::own::OwnForcesWritten;
+use super::self_gravity::self_gravity;
 use super::shape::ShapeBuilder;
 use super::solids::Solids;
 use super::start::{WrittenPlacement, placement};
@@ -19,7 +20,7 @@ use crate::units::shown;
 use gyration::body::{Body as Moving, BodyKind, Pin, RigidInertia, Solid};
 use gyration::fluid::Inclusion;
 use gyration::kinematics::Placement;
-use gyration::load::{Anchor, Spring, SpringLaw};
+use gyration::load::{Anchor, SelfGravity, Spring, SpringLaw};
 use gyration::shape::Shape;
 use gyration::state::Start;
 use gyration::tensor::Vec3;
@@ -44,6 +45,8 @@ pub(super) struct PreparedBody<'a> {
     /// None where something is wrong with it.
     inclusion: Option<Option<Inclusion>>,
     own: Option<OwnForcesWritten>,
+    /// None where something is wrong with it.
+    self_gravity: Option<Option<SelfGravity>>,
     /// X of the pin \[m\].
     arm: Option<Vec3>,
     size: f64,
@@ -78,11 +81,12 @@ impl<'a> PreparedBody<'a> {
         near(arm.as_ref(), &shape, key, reporter);
         let kind = kind?;
         let inclusion = ImmersedBody { placed, shape: &shape, mass: &mass, kind: &kind }.inclusion(context, reporter);
+        let self_gravity = self_gravity(placed, (&shape, &mass), &kind, context, reporter);
         if kind == BodyKind::Rigid(RigidInertia::POINT) {
             point(placed, reporter);
         }
         let (attitude, size) = (attitude?, size(&shape, &mass, &arm.unwrap_or_default()));
-        Some(Self { placed, attitude, solid: solids.share(shape, mass), kind, inclusion, own, arm, size })
+        Some(Self { placed, attitude, solid: solids.share(shape, mass), kind, inclusion, own, self_gravity, arm, size })
     }
 
     /// How the body starts as it is written, without its copies.
@@ -156,7 +160,8 @@ impl<'a> PreparedBody<'a> {
         let guide = guide(self.placed, &mut kind, &mut start, reporter)?;
         let place = placement(&start);
         let springs = springs(self.placed, index, &place, reporter);
-        let own = self.own.clone()?.at(&place, (&self.solid.shape, &self.solid.mass.center), reporter)?;
+        let mut own = self.own.clone()?.at(&place, (&self.solid.shape, &self.solid.mass.center), reporter)?;
+        own.self_gravity = self.self_gravity?;
         let body = Moving {
             kind,
             size: self.size,

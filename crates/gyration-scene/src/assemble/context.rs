@@ -20,6 +20,8 @@ pub(crate) struct SceneContext<'a> {
     pub(super) has_fluid: bool,
     /// η \[Pa s\] and ρ_f \[kg/m³\], if the file says so without error.
     pub(super) fluid: Option<[f64; 2]>,
+    /// G of bodies on themselves \[N m²/kg²\], if the scene has that gravity.
+    pub(super) self_gravity: Option<f64>,
     /// Constants of expressions, if the file says them without error.
     pub(super) constants: Option<&'a BTreeMap<String, AnyQuantity>>,
 }
@@ -39,6 +41,7 @@ impl<'a> SceneContext<'a> {
             has_support: supports.iter().any(|support| support.get("shape").is_none()),
             has_fluid: document.root.get("fluid").is_some(),
             fluid: partial.fluid.as_ref().map(|fluid| [fluid.viscosity.value(), fluid.density.value()]),
+            self_gravity: partial.world.self_gravity.map(|gravity| gravity.constant.value()),
             constants,
         }
     }

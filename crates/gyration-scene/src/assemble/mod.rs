@@ -33,6 +33,7 @@ mod random;
 mod reach;
 mod resolve;
 mod salvage;
+mod self_gravity;
 mod shape;
 mod signal;
 mod solids;

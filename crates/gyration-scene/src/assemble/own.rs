@@ -65,7 +65,7 @@ impl OwnForcesWritten {
         if reader.fails {
             return None;
         }
-        let forces = OwnForces { potential, body_force: None, point_forces, resistance, frictions, absorption: None };
+        let forces = OwnForces { potential, point_forces, resistance, frictions, ..OwnForces::default() };
         Some(Self { forces, frictions: keys, field, body: key.clone(), has_shape: value.shape.is_some() })
     }
 

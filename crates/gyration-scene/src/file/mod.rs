@@ -53,7 +53,7 @@ pub use solver::{Method, Solver};
 pub use spring::SpringBetween;
 pub use support::{Motion, Oscillation, Plane, Rotation, Support};
 pub use time::{StopAtRest, Time};
-pub use world::World;
+pub use world::{SelfGravity, World};
 
 use crate::quantity::AnyQuantity;
 use schemars::JsonSchema;

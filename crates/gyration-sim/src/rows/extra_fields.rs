@@ -187,7 +187,7 @@ static KINDS: [[ExtraField; 2]; LoadKind::COUNT] = [
     by_kind!(Drag, "force_drag", "moment_drag", "the fluid, with buoyancy"),
     by_kind!(Friction, "force_friction", "moment_friction", "linear friction"),
     by_kind!(Load, "force_load", "moment_load",
-        "couples, potentials, body forces, gyroscopic loads, and of a controller"),
+        "couples, potentials, body forces, gyroscopic loads, its own gravity, and of a controller"),
 ];
 
 /// Every field that can be asked for, in the order in which they are recorded.

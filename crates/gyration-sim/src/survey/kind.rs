@@ -94,7 +94,7 @@ fn material_in_words(material: &Material) -> String {
 }
 
 fn own_forces(body: &Body) -> Vec<String> {
-    let OwnForces { potential, body_force, point_forces, resistance, frictions, absorption } = &body.own;
+    let OwnForces { potential, body_force, point_forces, resistance, frictions, absorption, self_gravity } = &body.own;
     let potential = potential.as_ref().map(|potential| match potential.is_energy() {
         true => "potential".to_owned(),
         false => "potential that changes in time".to_owned(),
@@ -113,7 +113,8 @@ fn own_forces(body: &Body) -> Vec<String> {
         1 => "a force on a point".to_owned(),
         count => format!("forces on {count} points"),
     });
-    [potential, body_force, forces, constant, varying, absorption].into_iter().flatten().collect()
+    let gravity = self_gravity.map(|_| "gravity of its own".to_owned());
+    [potential, body_force, forces, constant, varying, absorption, gravity].into_iter().flatten().collect()
 }
 
 fn loads(affine: &Affine) -> Vec<String> {

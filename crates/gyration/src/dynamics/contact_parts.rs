@@ -65,6 +65,7 @@ pub fn contact_parts(at: &BodyAt, scratch: &mut Scratch) -> Result<ContactParts,
             | Load::PointForce(_)
             | Load::OwnFriction(_)
             | Load::MassFriction(_)
+            | Load::SelfGravity(_)
             | Load::Fluid(..) => {}
         }
         Ok(())

@@ -84,6 +84,7 @@ pub fn exchanges(instant: &Instant, scratch: &mut Scratch, out: &mut Vec<Exchang
                 | Load::PointForce(_)
                 | Load::OwnFriction(_)
                 | Load::MassFriction(_)
+                | Load::SelfGravity(_)
                 | Load::Fluid(..) => None,
             };
             out.extend(found.map(|found| found.ordered(instant)));

@@ -153,6 +153,7 @@ impl Acting {
                 self.powers[Work::Viscosity] += loads.power(&velocity.velocity, &velocity.gradient_rate);
                 self.total += loads;
             }
+            Load::SelfGravity(gravity) => self.total.moment += gravity.moment(&at.motion.placement.gradient),
             Load::Fluid(..) => {
                 let Some(loads) = fluid(at)? else { return Ok(()) };
                 self.powers[Work::Fluid] += loads.power(&velocity.velocity, &velocity.gradient_rate);
@@ -246,6 +247,7 @@ pub(super) fn add_slopes(
         Load::MassFriction(friction) => {
             slopes.add_mass_friction(friction, &at.body.solid.mass, &at.motion.velocity);
         }
+        Load::SelfGravity(gravity) => slopes.add_self_gravity(gravity, &at.motion.placement.gradient),
         Load::Fluid(..) => {
             if let (Some(gyration), Some(immersed)) = (at.gyration(), immersion(at)?) {
                 immersed.add_to(slopes, gyration);
@@ -281,6 +283,7 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                     let energy = potential.energy(&at.motion.placement, at.time, &mut scratch.formulas);
                     energy.map_err(undefined(at, FormulaOf::Potential))?
                 }
+                Load::SelfGravity(gravity) => gravity.energy(&at.motion.placement.gradient),
                 Load::Spring(_)
                 | Load::Bond(_)
                 | Load::Pair(_)

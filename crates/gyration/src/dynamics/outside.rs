@@ -36,6 +36,7 @@ pub(crate) fn outside_loads(at: &BodyAt, scratch: &mut Scratch) -> Result<Loads,
             | Load::PointForce(_)
             | Load::OwnFriction(_)
             | Load::MassFriction(_)
+            | Load::SelfGravity(_)
             | Load::Fluid(..) => Party::Space,
         };
         if other.body().is_none() { outside.add(&load, at, scratch) } else { Ok(()) }

@@ -81,6 +81,7 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
             | Load::Resistance(_)
             | Load::OwnFriction(_)
             | Load::MassFriction(_)
+            | Load::SelfGravity(_)
             | Load::Fluid(..) => {}
         }
         Ok(())

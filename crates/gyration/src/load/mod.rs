@@ -1,6 +1,6 @@
 //! Loads on a body: the force f and the affine moment M = ∫ q ⊗ (X − X₀), those of springs at material points, of
-//! bonds, of couples, of friction that is linear in the velocity, in proportion to the mass, those of formulas, and
-//! what a controller applies.
+//! bonds, of couples, of friction that is linear in the velocity, in proportion to the mass, those of formulas, of the
+//! gravity of a body on itself, and what a controller applies.
 //!
 //! f [N] is spatial; M [N m] has its first index spatial, its second material, so that its power is M·Ṗ. A force F at a
 //! material point adds F to f and F ⊗ X to M. Source: `docs/theory-affine.md`.
@@ -17,6 +17,7 @@ mod own_friction;
 mod point_force;
 mod potential;
 mod resistance;
+mod self_gravity;
 mod slopes;
 mod spring;
 mod wrench;
@@ -38,6 +39,7 @@ pub use point_force::PointForce;
 pub use potential::Potential;
 pub use resistance::{Frame, LinearResistance, Mat12, ResistanceError};
 pub(crate) use resistance::{mirrored, semi_definite};
+pub use self_gravity::SelfGravity;
 pub use slopes::LoadSlopes;
 pub(crate) use slopes::{COORDINATES, add_blocks, loads, numbers, unit};
 pub use spring::{Anchor, Attachment, Spring, SpringEnd, SpringLaw, SpringLoads};

@@ -1,6 +1,6 @@
-//! The forces that a scene writes for one body, as formulas of its place and of time.
+//! The forces that a body has of its own: formulas of its place and of time, friction, its own gravity.
 
-use super::{BodyForce, LinearResistance, MassFriction, OwnFriction, PointForce, Potential};
+use super::{BodyForce, LinearResistance, MassFriction, OwnFriction, PointForce, Potential, SelfGravity};
 
 /// Forces of a body's own.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -17,6 +17,8 @@ pub struct OwnForces {
     pub frictions: Vec<OwnFriction>,
     /// By which a free end of a lattice absorbs waves.
     pub absorption: Option<MassFriction>,
+    /// The gravity of the body on itself; none of a rigid one, whose energy it does not change.
+    pub self_gravity: Option<SelfGravity>,
 }
 
 impl OwnForces {

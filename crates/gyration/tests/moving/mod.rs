@@ -14,7 +14,7 @@ use gyration::fluid::{FixedForm, Fluid, Form, History, Inclusion};
 use gyration::kinematics::Placement;
 use gyration::load::{
     Anchor, Applied, BodyForce, Couple, FieldOfForce, Formula, Frame, FrictionEntry, FrictionMatrix, LinearResistance,
-    MassFriction, Mat12, OwnForces, OwnFriction, PointForce, Potential, Spring, SpringLaw,
+    MassFriction, Mat12, OwnForces, OwnFriction, PointForce, Potential, SelfGravity, Spring, SpringLaw,
 };
 use gyration::material::{Material, MooneyRivlin, NeoHookeanLog};
 use gyration::model::Model;
@@ -229,6 +229,7 @@ pub fn with_own_forces(model: Model) -> Model {
                 .chain((index % 3 == 0).then(by_entries))
                 .collect(),
             absorption: Some(MassFriction { rate: 0.7 }),
+            self_gravity: Some(SelfGravity::new(0.9, 1.4, &Vec3::new(0.5, [0.3, 0.5][index % 2], 0.5))),
         };
         Body { own, ..(**body).clone() }
     };

@@ -42,6 +42,7 @@ impl Group {
                     | Load::PointForce(_)
                     | Load::OwnFriction(_)
                     | Load::MassFriction(_)
+                    | Load::SelfGravity(_)
                     | Load::Fluid(..) => true,
                 };
                 if linear { Ok(()) } else { Err(()) }

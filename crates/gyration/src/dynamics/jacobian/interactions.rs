@@ -59,6 +59,7 @@ pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usiz
             | Load::PointForce(_)
             | Load::OwnFriction(_)
             | Load::MassFriction(_)
+            | Load::SelfGravity(_)
             | Load::Fluid(..) => {
                 return Ok(());
             }
