@@ -9,8 +9,8 @@
 //!   N = (V/2) ∫ B ds/Δ,   𝓜:T = (V/4) ∫ s [B (B:T) + B (T + Tᵀ) B] ds/Δ,   V = √det Q
 //!
 //! and the traction on the surface is σ n with the same σ everywhere. Tensors are in the principal axes, where B is
-//! diagonal and everything follows from `ellipsoid_moments`. Derivatives by Q are those of B, δB = −B δQ B, so that equal axes
-//! are no special case. Source: `docs/theory-fluid.md`, written without axes.
+//! diagonal and everything follows from `ellipsoid_moments`. Derivatives by Q are those of B, δB = −B δQ B, so that
+//! equal axes are no special case. Source: `docs/theory-fluid.md`, written without axes.
 
 use crate::ellipsoid_moments::EllipsoidMoments;
 use crate::material::Spectrum;

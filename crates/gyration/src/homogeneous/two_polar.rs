@@ -6,8 +6,8 @@
 //!
 //!   χ_ij = (A_ij d_j + A_ji d_i)/(d_j² − d_i²),   ϑ_ij = (A_ij d_i + A_ji d_j)/(d_j² − d_i²)
 //!
-//! L turns in space with the principal axes of the body, R in the reference placement with the matter that they hold:
-//! a body that turns as a rigid one has no vorticity, one whose figure stands no spin, and there the matter circulates
+//! L turns in space with the principal axes of the body, R in the reference placement with the matter that they hold: a
+//! body that turns as a rigid one has no vorticity, one whose figure stands no spin, and there the matter circulates
 //! against Ṙ Rᵀ. Where two d_i meet neither frame is determined. Source: Chandrasekhar, *Ellipsoidal Figures of
 //! Equilibrium* (1969), ch. 4 (Riemann).
 
