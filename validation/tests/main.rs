@@ -23,6 +23,7 @@ mod case_fields;
 mod case_gallery_dissipates;
 mod case_guides;
 mod case_joints;
+mod case_kinetic;
 mod case_kept_lattices;
 mod case_kept_through_partings;
 mod case_linkages;

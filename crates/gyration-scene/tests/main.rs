@@ -15,6 +15,7 @@ mod corpus;
 mod errors;
 mod joints;
 mod keeps;
+mod kinetic;
 mod lattice_errors;
 mod meant;
 mod meetings;

@@ -2,8 +2,9 @@
 //!
 //!   E = max(max_t K, max_t Σ|W|)
 //!
-//! K is the kinetic energy [J], W the works [J], t the ends of all steps: a motion that is looked at where it turns has
-//! no kinetic energy in any row. The potential energies vary by Σ W − K, which E bounds to a factor of two.
+//! K is the magnitude of the kinetic energy [J], W the works [J], t the ends of all steps: a motion that is looked at
+//! where it turns has no kinetic energy in any row. The potential energies vary by Σ W − K, which E bounds to a factor
+//! of two.
 //!
 //! When islands merge, what was in play in both is in play in one. When an island falls apart, its parts share what was
 //! in play by their kinetic energies. The sum over all islands so changes only where energy comes into play, and hangs
@@ -23,7 +24,7 @@ pub struct InPlay {
 impl InPlay {
     /// Notes the kinetic energy [J] and the works [J] at the end of a step.
     pub fn note(&mut self, kinetic: f64, works: &[f64]) {
-        self.kinetic = self.kinetic.max(kinetic);
+        self.kinetic = self.kinetic.max(kinetic.abs());
         self.exchanged = self.exchanged.max(self.before + sum(works));
     }
 

@@ -89,7 +89,7 @@ pub fn observe_at(at: &BodyAt, acting: &Acting, scratch: &mut Scratch) -> Result
     let MotionAt { body, motion, .. } = **at;
     let BodyMotion { placement, velocity } = motion;
     let position = at.model.in_space(at.index, &placement.position);
-    let affine_momentum = placement.gradient * body.solid.mass.euler_tensor * velocity.gradient_rate.transpose();
+    let affine_momentum = body.affine_momentum(&placement.gradient, &velocity.gradient_rate);
     let linear_momentum = body.solid.mass.mass * velocity.velocity;
     Ok(BodyObservation {
         motion: BodyMotion { placement: Placement { position, ..*placement }, velocity: *velocity },
@@ -183,12 +183,13 @@ fn elastic_energy(at: &BodyAt) -> f64 {
     }
 }
 
-/// ½ m|ṗ₀|² + ½ tr(Ṗ J Ṗᵀ) [J]; none of a body without inertia, since it takes no part in its balance.
+/// ½ m|ṗ₀|² + ½ Ṗ·∂T/∂Ṗ [J], the latter ½ tr(Ṗ J Ṗᵀ) unless the kinetic energy of the body is another; none of a body
+/// without inertia, since it takes no part in its balance.
 pub fn kinetic_energy(body: &Body, motion: &BodyMotion) -> f64 {
     if !body.has_inertia() {
         return 0.0;
     }
     let Velocity { velocity, gradient_rate } = &motion.velocity;
-    let spread = (gradient_rate * body.solid.mass.euler_tensor).dot(gradient_rate);
+    let spread = body.canonical_momentum(&motion.placement.gradient, gradient_rate).dot(gradient_rate);
     0.5 * (body.solid.mass.mass * velocity.norm_squared() + spread)
 }

@@ -2,6 +2,7 @@
 //! objectivity.
 
 use crate::moving::*;
+use gyration::affine::Kinetic;
 use gyration::balance::observe;
 use gyration::body::{Body, BodyKind, RigidInertia};
 use gyration::contact::{AreaMeasure, Contact, LawSet};
@@ -98,6 +99,29 @@ proptest! {
             let state = state(&model, &numbers);
             assert_jacobian_is_the_derivative(&model, &state);
             assert_power_is_the_rate_of_energy(&model, &state);
+        }
+    }
+
+    #[test]
+    fn jacobian_and_power_of_other_kinetic_energies_are_those_of_the_rates(
+        numbers in numbers(24), exponents in exponents(),
+    ) {
+        for kinetic in [Kinetic::Comoving, Kinetic::Invariant { square: 0.04, trace: -0.03 }] {
+            let free = Variant { incompressible: false, pinned: false, frame: Frame::Space };
+            let own = |shape| {
+                let mut body = body(shape, free);
+                if let BodyKind::Affine(affine) = &mut body.kind {
+                    affine.interior.kinetic = Some(kinetic);
+                }
+                body
+            };
+            let model = Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), shapes().map(own));
+            let model = attached(model, exponents, AreaMeasure::DeformedArea);
+            for model in [with_own_forces(model.clone()), immersed(model, true)] {
+                let state = state(&model, &numbers);
+                assert_jacobian_is_the_derivative(&model, &state);
+                assert_power_is_the_rate_of_energy(&model, &state);
+            }
         }
     }
 

@@ -18,6 +18,8 @@ pub(crate) struct SceneContext<'a> {
     pub(super) has_support: bool,
     /// Whether there is a fluid, well formed or not.
     pub(super) has_fluid: bool,
+    /// Whether the bodies are those of a cell.
+    pub(super) has_lattice: bool,
     /// η \[Pa s\] and ρ_f \[kg/m³\], if the file says so without error.
     pub(super) fluid: Option<[f64; 2]>,
     /// G of bodies on themselves \[N m²/kg²\], if the scene has that gravity.
@@ -39,6 +41,7 @@ impl<'a> SceneContext<'a> {
             files,
             end: partial.time.as_ref().map(|time| time.end.value()),
             has_support: supports.iter().any(|support| support.get("shape").is_none()),
+            has_lattice: document.root.get("lattice").is_some(),
             has_fluid: document.root.get("fluid").is_some(),
             fluid: partial.fluid.as_ref().map(|fluid| [fluid.viscosity.value(), fluid.density.value()]),
             self_gravity: partial.world.self_gravity.map(|gravity| gravity.constant.value()),

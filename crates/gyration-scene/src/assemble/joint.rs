@@ -55,6 +55,12 @@ pub(super) fn joints(
         if one.party == other.party {
             continue;
         }
+        let is_constant = |end: &End| end.body.and_then(|own| own.body.affine()?.interior.kinetic).is_none();
+        if ![&one, &other].into_iter().all(is_constant) {
+            let message = "a joint asks for bodies of the kinetic energy ½ tr(Ṗ J Ṗᵀ)";
+            reporter.note(key, message, "leave out one of the joint and `kinetic`");
+            continue;
+        }
         let joint = Written { key, value, ends: [one, other] }.joint(context, reporter);
         joints.extend(joint.map(|(joint, length)| PlacedJoint { key: key.clone(), joint, length }));
     }

@@ -3,10 +3,12 @@
 use super::affine::{AffineParts, Places, inverts};
 use super::context::SceneContext;
 use super::contractile::{WrittenContraction, feels_no_gap};
+use super::kinetic::kinetic;
 use crate::check::{Placed, Reporter};
 use crate::file::Body;
 use crate::key::Key;
 use crate::quantity::si;
+use gyration::affine::Kinetic;
 use gyration::body::{BodyKind, Contractile, Pin, RigidInertia};
 use gyration::mass::MassProperties;
 use gyration::signal::Jet;
@@ -17,6 +19,7 @@ use gyration::tensor::Vec3;
 pub(super) struct WrittenDeformation {
     parts: Option<Option<AffineParts>>,
     contracting: Option<Option<WrittenContraction>>,
+    kinetic: Option<Option<Kinetic>>,
 }
 
 impl WrittenDeformation {
@@ -27,7 +30,9 @@ impl WrittenDeformation {
         let parts = value.deformable().map(|(name, it)| AffineParts::of(it, &key.key(name), context.files, reporter));
         let contracting = value.contractile.as_ref();
         let contracting = contracting.map(|it| WrittenContraction::of(it, &key.key("contractile"), context, reporter));
-        Self { parts, contracting }
+        let is_incompressible = parts.iter().flatten().any(AffineParts::is_incompressible);
+        let kinetic = kinetic(placed, is_incompressible, context, reporter);
+        Self { parts, contracting, kinetic }
     }
 
     /// The contraction at the start, if there is one without error.
@@ -50,12 +55,14 @@ impl WrittenDeformation {
         let places = Places { interior, mass: key.key(name) };
         let Some(parts) = self.parts else { return inertia(mass, arm, &places.mass, reporter).map(BodyKind::Rigid) };
         let (Some(contracting), Some(written)) = (self.contracting, &value.contractile) else {
-            let affine = parts?.with_mass(mass, arm.as_ref(), &places, reporter)?;
+            let mut affine = parts?.with_mass(mass, arm.as_ref(), &places, reporter)?;
+            affine.interior.kinetic = self.kinetic?;
             return Some(BodyKind::Affine(Box::new(affine)));
         };
         let fills = fills_a_volume(mass, &places.interior, reporter);
         let feels = has_surface || feels_no_gap(written, &places.interior, reporter);
         let (parts, contracting) = (parts?, contracting?);
+        self.kinetic?;
         let suits = contracting.suits(parts.is_incompressible(), &places.interior, reporter);
         if !fills {
             return None;

@@ -19,6 +19,7 @@ mod images;
 mod joint;
 mod joint_start;
 mod kind;
+mod kinetic;
 mod lattice;
 mod mass;
 mod material;

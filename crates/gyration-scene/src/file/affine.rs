@@ -4,7 +4,7 @@
 //! velocity gradient L, row by row), 6×6 on sym L in the order xx, yy, zz, yz, xz, xy.
 
 use super::Material;
-use crate::quantity::{NonNegative, Torque, Viscosity};
+use crate::quantity::{EulerMoment, NonNegative, Torque, Viscosity};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -30,6 +30,31 @@ pub struct Affine {
     /// An affine moment on the body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub couple: Option<Couple>,
+    /// Kinetic energy of the deformation; ½ tr(Ṗ J Ṗᵀ) if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kinetic: Option<Kinetic>,
+}
+
+/// A kinetic energy of W = P⁻¹Ṗ.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Kinetic {
+    /// ½ tr(W J Wᵀ).
+    Comoving,
+    /// ½ (A tr W² + B (tr W)²).
+    Invariant(InvariantKinetic),
+}
+
+/// The constants of ½ (A tr W² + B (tr W)²).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InvariantKinetic {
+    /// A (kg m²), not zero.
+    #[serde(rename = "A")]
+    pub square: EulerMoment,
+    /// B (kg m²); A + 3B is not zero.
+    #[serde(rename = "B")]
+    pub trace: EulerMoment,
 }
 
 /// Internal friction: `shear` and `bulk`, or a `matrix`.

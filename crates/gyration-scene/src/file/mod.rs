@@ -26,7 +26,9 @@ mod support;
 mod time;
 mod world;
 
-pub use affine::{Affine, Couple, Entry, Frame, Gyroscopic, InternalFriction, LinearFriction};
+pub use affine::{
+    Affine, Couple, Entry, Frame, Gyroscopic, InternalFriction, InvariantKinetic, Kinetic, LinearFriction,
+};
 pub(crate) use behaviour::EXPONENT;
 pub use behaviour::{Behaviour, Layer};
 pub use body::{Body, MassProperties, PointForce, Rigid, Spring};

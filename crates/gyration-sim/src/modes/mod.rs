@@ -122,6 +122,9 @@ pub enum NoRest {
          history = false to leave that out"
     )]
     Remembered,
+    /// Its kinetic energy changes with its form.
+    #[error("the kinetic energy of the body is another (`kinetic`): modes are those of a constant mass")]
+    NoConstantMass,
     /// Other bodies act on it.
     #[error("others act on the body: `gyration modes` looks for the rest that they have together")]
     ActedOn,
@@ -223,6 +226,10 @@ pub fn rest(model: &Model, start: &State, body: usize) -> Result<Rest, NoRest> {
 pub fn system_rest(model: &Model, start: &State, members: &[usize]) -> Result<Vec<Rest>, NoRest> {
     if members.iter().any(|body| model.bodies[*body].history().is_some()) {
         return Err(NoRest::Remembered);
+    }
+    let is_of_own_mass = |body: &usize| model.bodies[*body].affine().is_some_and(|it| it.interior.kinetic.is_some());
+    if members.iter().any(is_of_own_mass) {
+        return Err(NoRest::NoConstantMass);
     }
     let mut frozen = FrozenSystem::new(model, start, members, FrozenContraction::Held);
     let held = match equilibrium::find(&mut frozen) {

@@ -2,7 +2,7 @@
 
 use super::contraction::contraction;
 use crate::format::significant;
-use gyration::affine::Viscosity;
+use gyration::affine::{Kinetic, Viscosity};
 use gyration::body::{Affine, Body, BodyKind};
 use gyration::load::OwnForces;
 use gyration::material::Material;
@@ -129,6 +129,13 @@ fn loads(affine: &Affine) -> Vec<String> {
         (resisting > 0).then(|| "linear friction".to_owned()),
         (affine.resistances.len() > resisting).then(|| "gyroscopic load".to_owned()),
         affine.couple.as_ref().map(|_| "couple".to_owned()),
+        affine.interior.kinetic.map(|kinetic| match kinetic {
+            Kinetic::Comoving => "comoving kinetic energy".to_owned(),
+            Kinetic::Invariant { square, trace } => {
+                let [a, b] = [square, trace].map(|value| significant(value, 5));
+                format!("invariant kinetic energy, A {a} kg m^2, B {b} kg m^2")
+            }
+        }),
     ];
     entries.into_iter().flatten().collect()
 }

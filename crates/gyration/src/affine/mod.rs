@@ -4,13 +4,15 @@
 //!
 //! V reference volume, J Euler tensor, M affine moment of the loads, φ energy of the material, τ viscous Kirchhoff
 //! stress, π the pressure of an incompressible body (`constraint`). Everything here is a function of P, Ṗ and M: no
-//! state, no time, no contact. Derivatives are in `slopes`. Source: `docs/theory-affine.md`.
+//! state, no time, no contact. Derivatives are in `slopes`, other kinetic energies in `kinetic`. Source:
+//! `docs/theory-affine.md`.
 
 mod anisotropic;
 mod constraint;
 mod elastic;
 mod guide;
 mod gyration;
+mod kinetic;
 mod mobility;
 mod reaction;
 mod slopes;
@@ -23,6 +25,7 @@ pub(crate) use constraint::Constraint;
 pub use constraint::Correction;
 pub use guide::StrainGuide;
 pub use gyration::Gyration;
+pub use kinetic::Kinetic;
 pub use slopes::AffineSlopes;
 pub(crate) use terms::Entry;
 pub use viscosity::Viscosity;
@@ -31,6 +34,7 @@ use crate::mass::MassProperties;
 use crate::material::Material;
 use crate::simd::{F64x4, SimdMat3, WithF64x4, dispatch_f64x4};
 use crate::tensor::Mat3;
+use kinetic::KineticBalance;
 use mobility::Mobility;
 use solution::Solution;
 
@@ -51,6 +55,8 @@ pub struct AffineBody {
     pub anisotropic: Option<AnisotropicFriction>,
     /// The gradients that it is kept to, if it is.
     pub guide: Option<Box<StrainGuide>>,
+    /// Its kinetic energy, if that is not ½ tr(Ṗ J Ṗᵀ); of a body that is incompressible, pinned or kept it is.
+    pub kinetic: Option<Kinetic>,
 }
 
 /// The Euler tensor cannot be inverted: the mass lies in a plane, and the stretch across it has no meaning.
@@ -109,6 +115,7 @@ impl AffineBody {
                     viscosity,
                     anisotropic: None,
                     guide: None,
+                    kinetic: None,
                 })
             }
             _ => Err(SingularEulerTensor { smallest, largest }),
@@ -151,7 +158,17 @@ impl AffineBody {
 
     /// Solves the balance for P̈ and, of an incompressible body, the pressure; `moment` is M [N m].
     pub fn balance(&self, at: &Gyration, moment: &Mat3) -> AffineBalance {
-        dispatch_f64x4(Balance { body: self, at, moment })
+        let mut balance = dispatch_f64x4(Balance { body: self, at, moment });
+        if let Some(kinetic) = self.kinetic {
+            let free = moment - balance.stress * self.volume;
+            balance.acceleration = KineticBalance::of(kinetic, at, self.inertia(), free).acceleration();
+        }
+        balance
+    }
+
+    /// J and J⁻¹.
+    fn inertia(&self) -> [&Mat3; 2] {
+        [&self.euler_tensor, &self.inverse]
     }
 
     /// Puts an incompressible body back to det P = 1 and tr L = 0; leaves any other as it is.

@@ -10,11 +10,13 @@
 
 use super::anisotropic::FrictionSlopes;
 use super::elastic::Elastic;
+use super::kinetic::KineticBalance;
 use super::mobility::Mobility;
 use super::reaction::Reaction;
 use super::solution::Solution;
 use super::terms::Entry;
 use super::{AffineBody, Gyration};
+use crate::load::unit;
 use crate::material::{ByInvariants, ByPrincipal};
 use crate::simd::{F64x4, SimdMat3};
 use crate::tensor::Mat3;
@@ -34,6 +36,8 @@ pub struct AffineSlopes<'a> {
     asked_by_gradient: SimdMat3,
     /// 2(FL)ᵀ.
     asked_by_rate: SimdMat3,
+    /// Where B is no longer P̈ J.
+    kinetic: Option<KineticBalance<'a>>,
 }
 
 impl AffineBody {
@@ -56,6 +60,7 @@ impl AffineBody {
             compliance: None,
             asked_by_gradient: SimdMat3::default(),
             asked_by_rate: SimdMat3::default(),
+            kinetic: None,
         };
         let solution = Solution::new(self, at, self.elastic_stress(at, zeros), &SimdMat3::of(moment).with(zeros));
         let Solution { across, l, acceleration, .. } = &solution;
@@ -65,6 +70,10 @@ impl AffineBody {
         let straight = across.times_transposed(acceleration).times(across);
         slopes.asked_by_gradient = (straight - lt.times(&carried) * 2.0).kept();
         slopes.asked_by_rate = (carried * 2.0).kept();
+        slopes.kinetic = self.kinetic.map(|kinetic| {
+            let free = moment - solution.stress.matrix() * self.volume;
+            KineticBalance::of(kinetic, at, self.inertia(), free)
+        });
         slopes.compliance = solution.constraint.as_ref().map(|constraint| constraint.compliance);
         let pressed = slopes.fill_elastic(at, zeros);
         slopes.reaction.fill(self, at, (&slopes.mobility, &solution), solution.push - pressed, &carried);
@@ -134,6 +143,11 @@ impl AffineSlopes<'_> {
         moment: Option<&SimdMat3>,
         registers: F,
     ) -> SimdMat3<F> {
+        if let Some(kinetic) = &self.kinetic {
+            let change = with(self.by_gradient(entry.j, entry.b), moment);
+            let along = kinetic.along(&unit(3 * entry.b + entry.j), &Mat3::zeros(), &change);
+            return SimdMat3::of(&along).with(registers);
+        }
         let free = self.moved(self.along_places(entry, registers), moment);
         self.constrained(free, self.asked_by_gradient.at(entry.j, entry.b)).0
     }
@@ -141,6 +155,11 @@ impl AffineSlopes<'_> {
     /// δP̈ along δṖ_jB, by which M changes by δM, if it does.
     #[inline(always)]
     pub(crate) fn along_rate<F: F64x4>(&self, entry: Entry, moment: Option<&SimdMat3>, registers: F) -> SimdMat3<F> {
+        if let Some(kinetic) = &self.kinetic {
+            let change = with(self.by_rate(entry.j, entry.b), moment);
+            let along = kinetic.along(&Mat3::zeros(), &unit(3 * entry.b + entry.j), &change);
+            return SimdMat3::of(&along).with(registers);
+        }
         let free = self.moved(self.along_rates(entry, registers), moment);
         self.constrained(free, self.asked_by_rate.at(entry.j, entry.b)).0
     }
@@ -148,6 +167,9 @@ impl AffineSlopes<'_> {
     /// δP̈ where M alone changes.
     #[inline(always)]
     pub(crate) fn along_moment<F: F64x4>(&self, moment: &SimdMat3, registers: F) -> SimdMat3<F> {
+        if let Some(kinetic) = &self.kinetic {
+            return SimdMat3::of(&kinetic.along(&Mat3::zeros(), &Mat3::zeros(), &moment.matrix())).with(registers);
+        }
         self.constrained(self.mobility.of_moment(&moment.with(registers)), 0.0).0
     }
 
@@ -163,6 +185,13 @@ impl AffineSlopes<'_> {
     /// The changes of P̈ and of the pressure (0 without one) with those of P, Ṗ and M.
     pub fn apply(&self, dp: &Mat3, drate: &Mat3, dmoment: &Mat3) -> (Mat3, f64) {
         let zeros = [0.0; 4];
+        if let Some(kinetic) = &self.kinetic {
+            let mut moved = *dmoment;
+            for (j, b) in (0..9).map(|place| (place % 3, place / 3)) {
+                moved += self.by_gradient(j, b).matrix() * dp[(j, b)] + self.by_rate(j, b).matrix() * drate[(j, b)];
+            }
+            return (kinetic.along(dp, drate, &moved), 0.0);
+        }
         let (mut change, mut asked) = (self.mobility.of_moment(&SimdMat3::of(dmoment)), 0.0);
         for (j, b) in (0..9).map(|place| (place % 3, place / 3)) {
             let (entry, dp, drate) = (Entry { j, b }, dp[(j, b)], drate[(j, b)]);
@@ -181,6 +210,11 @@ impl AffineSlopes<'_> {
         let push = (asked - free.dot(&self.reaction.across.with(registers))) * compliance;
         (free + self.reaction.way.with(registers) * push, push)
     }
+}
+
+/// ∂B with δM.
+fn with(change: SimdMat3, moment: Option<&SimdMat3>) -> Mat3 {
+    moment.map_or(change, |moment| change + *moment).matrix()
 }
 
 #[cfg(test)]

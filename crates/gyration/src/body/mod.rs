@@ -12,7 +12,7 @@ pub use guide::{Guide, TurnGuide};
 pub use layout::{Slots, matrix, vector};
 pub use solid::Solid;
 
-use crate::affine::AffineBody;
+use crate::affine::{AffineBody, Kinetic};
 use crate::contractile::{self, Contraction, Decomposition, Restored};
 use crate::fluid::{History, Inclusion};
 use crate::ledger::{Energy, Work};
@@ -284,6 +284,28 @@ impl Body {
     /// The history force on it.
     pub fn history(&self) -> Option<&History> {
         self.inclusion.as_ref()?.history.as_ref()
+    }
+
+    /// Its kinetic energy, if that is not ½ tr(Ṗ J Ṗᵀ).
+    pub(crate) fn kinetic(&self) -> Option<&Kinetic> {
+        self.affine()?.interior.kinetic.as_ref()
+    }
+
+    /// ∂T/∂Ṗ of its motion about the centre of mass, Ṗ J unless its kinetic energy is another \[kg m²/s\].
+    pub fn canonical_momentum(&self, p: &Mat3, rate: &Mat3) -> Mat3 {
+        let euler_tensor = &self.solid.mass.euler_tensor;
+        match self.kinetic() {
+            None => rate * euler_tensor,
+            Some(kinetic) => kinetic.canonical_momentum(p, rate, euler_tensor),
+        }
+    }
+
+    /// K = P (∂T/∂Ṗ)ᵀ about the centre of mass \[kg m²/s\].
+    pub fn affine_momentum(&self, p: &Mat3, rate: &Mat3) -> Mat3 {
+        match self.kinetic() {
+            None => p * self.solid.mass.euler_tensor * rate.transpose(),
+            Some(_) => p * self.canonical_momentum(p, rate).transpose(),
+        }
     }
 
     /// How many numbers its state has.

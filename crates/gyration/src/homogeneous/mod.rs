@@ -8,7 +8,8 @@
 //! weight too. The balance takes the reaction of a guide with it. The mean stress of a rigid body is the one that its
 //! balance asks for, S = (M − P̈ J)/V: its S Pᵀ is then symmetric as well. Of a body without inertia T and its
 //! derivative by the metric are zero, as P̈ is; its momenta are told all the same. `elasticity` has what the material
-//! does, `two_polar` how the frames of P = L D Rᵀ turn. Source: Sławianowski (1975), 2.7–3.9, 4.6–4.13; `docs/theory-affine.md`, `docs/equations.md`.
+//! does, `two_polar` how the frames of P = L D Rᵀ turn. Source: Sławianowski (1975), 2.7–3.9, 4.6–4.13;
+//! `docs/theory-affine.md`, `docs/equations.md`.
 
 mod elasticity;
 mod interior;
@@ -101,23 +102,35 @@ pub fn observe_homogeneous(
     let velocity_gradient = rate * inverse;
     let [spin, vorticity] = spin_and_vorticity(p, rate);
     let affine_moment = p * moment.transpose();
-    let momentum = p * body.solid.mass.euler_tensor * rate.transpose();
+    let momentum = body.affine_momentum(p, rate);
     let arm = at.model.in_space(at.index, &motion.placement.position) - origin;
     let stretches = polar.stretch.symmetric_eigenvalues();
     let mut stretches: [f64; 3] = stretches.into();
     stretches.sort_by(|a, b| b.total_cmp(a));
+    let (kinetic_tensor, canonical_momentum, momentum_rate) = match (body.kinetic(), at.gyration()) {
+        // T does not depend on the metric of space.
+        (Some(kinetic), Some(gyration)) => (
+            Mat3::zeros(),
+            body.canonical_momentum(p, rate),
+            kinetic.affine_momentum_rate(gyration, &acceleration, &euler_tensor),
+        ),
+        _ => (
+            inertia * rate * euler_tensor * rate.transpose(),
+            rate * euler_tensor,
+            p * euler_tensor * acceleration.transpose(),
+        ),
+    };
     let tension = body.solid.mass.volume * (stress * p.transpose()).transpose();
     Ok(HomogeneousObservation {
         velocity_gradient,
         total_affine_momentum: momentum + body.solid.mass.mass * arm * motion.velocity.velocity.transpose(),
-        comoving_affine_momentum: body.solid.mass.euler_tensor * (inverse * rate).transpose(),
+        comoving_affine_momentum: body.kinetic().map_or_else(
+            || body.solid.mass.euler_tensor * (inverse * rate).transpose(),
+            |_| inverse * momentum * inverse.transpose(),
+        ),
         affine_moment,
         moment_power: affine_moment.dot(&velocity_gradient.transpose()),
-        momentum_residual: residual(
-            body,
-            &(p * euler_tensor * acceleration.transpose() - p * balanced.transpose()),
-            &tension,
-        ),
+        momentum_residual: residual(body, &(momentum_rate - p * balanced.transpose()), &tension),
         principal_stretches: stretches.into(),
         rotation: polar.rotation,
         spin,
@@ -128,10 +141,10 @@ pub fn observe_homogeneous(
         total_moment: about.moment,
         total_affine_moment: p * loads.moment.transpose() + arm * loads.force.transpose(),
         friction_moment: friction - body.solid.mass.volume * elasticity.friction,
-        kinetic_tensor: inertia * rate * euler_tensor * rate.transpose(),
-        canonical_momentum: rate * euler_tensor,
+        kinetic_tensor,
+        canonical_momentum,
         kinetic_energy_of_centre: inertia * 0.5 * body.solid.mass.mass * motion.velocity.velocity.norm_squared(),
-        internal_kinetic_energy: inertia * 0.5 * (rate * body.solid.mass.euler_tensor).dot(rate),
+        internal_kinetic_energy: inertia * 0.5 * body.canonical_momentum(p, rate).dot(rate),
         elasticity,
     })
 }
