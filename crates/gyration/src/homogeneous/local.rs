@@ -8,6 +8,7 @@
 //! Sławianowski (1975), 3.5; `docs/fields.md`.
 
 use super::interior::Interior;
+use super::momentum_changes;
 use crate::body::Slots;
 use crate::dynamics::{Scratch, acting, body_rates, of_history, outside_loads, reaction};
 use crate::inadmissible::Inadmissible;
@@ -23,9 +24,9 @@ pub struct BodyBalance {
     pub acceleration: Vec3,
     /// K = P J Ṗᵀ [kg m²/s].
     pub affine_momentum: Mat3,
-    /// Ṗ J Ṗᵀ [J].
+    /// Ṗ J Ṗᵀ; zero of a kinetic energy of the co-moving rates [J].
     pub kinetic_tensor: Mat3,
-    /// P J P̈ᵀ [J].
+    /// What else dK/dt is: P J P̈ᵀ, or all of it [J].
     pub accelerated: Mat3,
     /// V (S Pᵀ)ᵀ [J].
     pub tension: Mat3,
@@ -65,7 +66,8 @@ impl BodyBalance {
         });
         let (pin_force, pin_moment) = held.unwrap_or_default();
         let outside = outside_loads(at, scratch)?;
-        let accelerated = p * euler_tensor * interior.acceleration.transpose();
+        let [kinetic_tensor, accelerated] = momentum_changes(at, &euler_tensor, &interior.acceleration);
+        let inertia = if at.body.has_inertia() { 1.0 } else { 0.0 };
         let tension = match at.kind() {
             KindAt::Rigid(..) => {
                 let unbalanced = p * (loads.moment + guide.moment).transpose() + pin_moment - accelerated;
@@ -78,8 +80,8 @@ impl BodyBalance {
         Ok(Self {
             mass,
             acceleration,
-            affine_momentum: p * euler_tensor * rate.transpose(),
-            kinetic_tensor: rate * euler_tensor * rate.transpose(),
+            affine_momentum: inertia * at.body.affine_momentum(p, rate),
+            kinetic_tensor,
             accelerated,
             tension,
             force: outside.force + guide.force + pin_force,

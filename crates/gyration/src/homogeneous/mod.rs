@@ -107,18 +107,10 @@ pub fn observe_homogeneous(
     let stretches = polar.stretch.symmetric_eigenvalues();
     let mut stretches: [f64; 3] = stretches.into();
     stretches.sort_by(|a, b| b.total_cmp(a));
-    let (kinetic_tensor, canonical_momentum, momentum_rate) = match (body.kinetic(), at.gyration()) {
-        // T does not depend on the metric of space.
-        (Some(kinetic), Some(gyration)) => (
-            Mat3::zeros(),
-            body.canonical_momentum(p, rate),
-            kinetic.affine_momentum_rate(gyration, &acceleration, &euler_tensor),
-        ),
-        _ => (
-            inertia * rate * euler_tensor * rate.transpose(),
-            rate * euler_tensor,
-            p * euler_tensor * acceleration.transpose(),
-        ),
+    let [kinetic_tensor, momentum_rate] = momentum_changes(at, &euler_tensor, &acceleration);
+    let canonical_momentum = match body.kinetic() {
+        Some(_) => body.canonical_momentum(p, rate),
+        None => rate * euler_tensor,
     };
     let tension = body.solid.mass.volume * (stress * p.transpose()).transpose();
     Ok(HomogeneousObservation {
@@ -141,12 +133,24 @@ pub fn observe_homogeneous(
         total_moment: about.moment,
         total_affine_moment: p * loads.moment.transpose() + arm * loads.force.transpose(),
         friction_moment: friction - body.solid.mass.volume * elasticity.friction,
-        kinetic_tensor,
+        kinetic_tensor: inertia * kinetic_tensor,
         canonical_momentum,
         kinetic_energy_of_centre: inertia * 0.5 * body.solid.mass.mass * motion.velocity.velocity.norm_squared(),
         internal_kinetic_energy: inertia * 0.5 * body.canonical_momentum(p, rate).dot(rate),
         elasticity,
     })
+}
+
+/// What dK/dt is made of: Ṗ J Ṗᵀ and P J P̈ᵀ; zero and dK/dt of a kinetic energy of the co-moving rates, which does not
+/// depend on the metric of space.
+fn momentum_changes(at: &BodyAt, euler_tensor: &Mat3, acceleration: &Mat3) -> [Mat3; 2] {
+    let (p, rate) = (&at.motion.placement.gradient, &at.motion.velocity.gradient_rate);
+    match (at.body.kinetic(), at.gyration()) {
+        (Some(kinetic), Some(gyration)) => {
+            [Mat3::zeros(), kinetic.affine_momentum_rate(gyration, acceleration, euler_tensor)]
+        }
+        _ => [rate * euler_tensor * rate.transpose(), p * euler_tensor * acceleration.transpose()],
+    }
 }
 
 /// Without a volume there is no stress to balance anything.

@@ -29,7 +29,7 @@ pub(super) fn spin_and_vorticity(p: &Mat3, rate: &Mat3) -> [Vec3; 2] {
     let (mut spin, mut vorticity) = (Mat3::zeros(), Mat3::zeros());
     for (i, j) in [(0, 1), (1, 2), (2, 0)] {
         let apart = values[j] - values[i];
-        if !(apart.abs() > MEETING * (values[i] + values[j])) {
+        if apart.is_nan() || apart.abs() <= MEETING * (values[i] + values[j]) {
             return [Vec3::repeat(f64::NAN); 2];
         }
         spin[(i, j)] = (seen[(i, j)] * stretches[j] + seen[(j, i)] * stretches[i]) / apart;
