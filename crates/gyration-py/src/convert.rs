@@ -234,6 +234,49 @@ pub fn array<'py, T: Element>(py: Python<'py>, numbers: Vec<T>, shape: &[usize])
     Ok(PyArray::from_vec(py, numbers).reshape(shape.to_vec())?.into_any())
 }
 
+/// JSON as Python's objects, nested lists of numbers as arrays; null among numbers is nan.
+pub fn with_arrays<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+    if let Value::Object(entries) = value {
+        let dict = PyDict::new(py);
+        for (key, value) in entries {
+            dict.set_item(key, with_arrays(py, value)?)?;
+        }
+        return dict.into_bound_py_any(py);
+    }
+    let Value::Array(items) = value else { return to_python(py, value) };
+    match shape(value) {
+        Some(shape) => {
+            let mut numbers = Vec::with_capacity(shape.iter().product());
+            flatten(value, &mut numbers);
+            array(py, numbers, &shape)
+        }
+        None => {
+            let items = items.iter().map(|item| with_arrays(py, item)).collect::<PyResult<Vec<_>>>()?;
+            PyList::new(py, items)?.into_bound_py_any(py)
+        }
+    }
+}
+
+/// The shape of nested lists of numbers; none of anything else, and of lists that differ in length.
+fn shape(value: &Value) -> Option<Vec<usize>> {
+    match value {
+        Value::Number(_) | Value::Null => Some(Vec::new()),
+        Value::Array(items) => {
+            let first = items.first().map_or_else(|| Some(Vec::new()), shape)?;
+            let alike = items.iter().all(|item| shape(item).as_ref() == Some(&first));
+            alike.then(|| [vec![items.len()], first].concat())
+        }
+        Value::Bool(_) | Value::String(_) | Value::Object(_) => None,
+    }
+}
+
+fn flatten(value: &Value, out: &mut Vec<f64>) {
+    match value {
+        Value::Array(items) => items.iter().for_each(|item| flatten(item, out)),
+        other => out.push(other.as_f64().unwrap_or(f64::NAN)),
+    }
+}
+
 /// The numbers of an array of this shape, or of lists in its form.
 pub fn numbers_of_shape(name: &str, object: &Bound<'_, PyAny>, shape: &[usize]) -> PyResult<Vec<f64>> {
     let read = || -> PyResult<(Vec<usize>, Vec<f64>)> {

@@ -6,7 +6,7 @@
 //!      ├─→ Batch: many simulations at once
 //!      ├─→ run_many → Runs: arrays of endings
 //!      ├─→ study → Table: rows of thousands of runs
-//!      └─→ modes, bands, resistance, sensitivities
+//!      └─→ modes, bands, continuum, orbit, resistance, sensitivities
 //! measurements ─→ calibrate → Fit: numbers of a scene, their errors
 //! ```
 //!
@@ -23,6 +23,7 @@ mod convert;
 mod errors;
 mod load;
 mod many;
+mod medium;
 mod members;
 mod modes;
 mod monitor;
@@ -58,6 +59,8 @@ mod _gyration {
     use super::convert::says_stop;
     #[pymodule_export]
     use super::many::{Runs, run_many};
+    #[pymodule_export]
+    use super::medium::{continuum, fields, orbit};
     #[pymodule_export]
     use super::modes::modes;
     #[pymodule_export]

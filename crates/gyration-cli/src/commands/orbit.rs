@@ -2,7 +2,7 @@
 
 use crate::arguments::OrbitArguments;
 use crate::error::{CliError, code};
-use crate::input::at_rest;
+use crate::input::ready;
 use crate::output;
 use crate::waiting::waiting;
 use gyration_sim::format::{significant, vector};
@@ -16,7 +16,7 @@ const SHOWN: usize = 24;
 /// Prints the orbit nearest to the start of a scene, or one of a period, an energy or an amplitude.
 pub fn execute(arguments: &OrbitArguments) -> Result<u8, CliError> {
     let name = &arguments.scene.scene;
-    let scene = waiting(format!("opening {name}"), true, || at_rest(&arguments.scene))?;
+    let scene = waiting(format!("opening {name}"), true, || ready(&arguments.scene))?;
     let period = arguments.period;
     let choice = match (arguments.energy, &arguments.amplitude, period) {
         (Some(energy), ..) => OrbitChoice::Energy(energy, period),

@@ -17,6 +17,9 @@ Lengths are in m, masses in kg, times in s, forces in N, angles in rad. Vectors 
 :func:`study`        thousands of runs over parameters, into one table; on many machines
 :func:`modes`        rest states and the small motions about them, of bodies and of systems
 :func:`bands`        waves through lattices: frequencies, decay rates, speeds, shapes
+:func:`continuum`    a lattice as a continuum: matrices, moduli, where it ends
+:func:`orbit`        a motion that repeats itself: period, start, multipliers
+:func:`fields`       many bodies as a medium: density, momenta, stresses of a recording
 :func:`resistance`   forces on a body in a viscous fluid
 :func:`sensitivities` derivatives of what is recorded by any number of a scene
 :func:`calibrate`    numbers of the laws from measurements, with their errors
@@ -45,7 +48,10 @@ from gyration._gyration import (
     __version__,
     bands,
     calibrate,
+    continuum,
+    fields,
     modes,
+    orbit,
     resistance,
     run_many,
     scenes,
@@ -75,7 +81,10 @@ __all__ = [
     "__version__",
     "bands",
     "calibrate",
+    "continuum",
+    "fields",
     "modes",
+    "orbit",
     "resistance",
     "run_many",
     "scenes",

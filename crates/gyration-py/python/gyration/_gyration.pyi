@@ -26,7 +26,10 @@ __all__ = [
     "_study_rows",
     "bands",
     "calibrate",
+    "continuum",
+    "fields",
     "modes",
+    "orbit",
     "resistance",
     "run_many",
     "scenes",
@@ -375,6 +378,28 @@ def bands(
     omega: tuple[float, float] | None = None,
     along: str | None = None,
     steps: int = 21,
+) -> dict[str, Any]: ...
+def continuum(
+    scene: _SceneLike,
+    path: str | None = None,
+    *,
+    model: str = "mindlin",
+    points: int = 101,
+) -> dict[str, Any]: ...
+def fields(
+    recording: Recording,
+    width: float,
+    *,
+    at: Sequence[Sequence[float]] | None = None,
+    grid: tuple[int, int, int] | None = None,
+    every: int = 1,
+) -> dict[str, Any]: ...
+def orbit(
+    scene: _SceneLike,
+    *,
+    period: float | None = None,
+    energy: float | None = None,
+    amplitude: tuple[str, float] | None = None,
 ) -> dict[str, Any]: ...
 def resistance(
     scene: _SceneLike,

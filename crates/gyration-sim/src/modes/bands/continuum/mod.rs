@@ -49,6 +49,10 @@ pub enum ContinuumModel {
 }
 
 impl ContinuumModel {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::First, Self::Mindlin, Self::Relaxed, Self::Cosserat, Self::Cauchy, Self::Gradient];
+
     /// The word by which it is asked for.
     pub fn name(self) -> &'static str {
         match self {

@@ -1,0 +1,53 @@
+"""Bodies as a medium, and motions that repeat themselves, as arrays."""
+
+import numpy as np
+import pytest
+
+import gyration
+
+CHAIN = {
+    "world": {"gravity": [0, 0, 0]},
+    "time": {"end": 1, "sample": 0.5},
+    "lattice": {"cell": [[0.12, 0, 0]], "repeat": [4, 1, 1]},
+    "body": [{"name": "a", "shape": {"points": [{"mass": 0.5, "at": [0, 0, 0]}]}}],
+    "spring": [{"between": ["a", "a"], "cell": [1, 0, 0], "stiffness": 40, "rest_length": 0.1}],
+}
+
+
+def test_a_chain_under_tension_bears_it_in_every_point():
+    recording = gyration.Scene(CHAIN).run()
+    found = gyration.fields(recording, 0.25, at=[[0, 0.1, 0], [7, 0, 0.1]])
+    assert found["stress"].shape == (3, 2, 3, 3) and found["hyperstress"].shape == (3, 2, 3, 3, 3)
+    exact = 0.8 * np.exp(-0.5 * 0.16) / (2 * np.pi * 0.0625)
+    np.testing.assert_allclose(found["stress"][:, :, 0, 0], exact, rtol=1e-12)
+    with pytest.raises(gyration.ArgumentError, match="above zero"):
+        gyration.fields(recording, 0)
+
+
+def test_the_same_chain_is_a_continuum():
+    found = gyration.continuum(CHAIN, "0,0,0 0.5,0,0", model="cauchy", points=3)
+    # k a along it, T across.
+    np.testing.assert_allclose(found["macro"][0, 0, 0, 0], 40 * 0.12, rtol=1e-12)
+    assert found["D1"].shape == (3, 3, 3) and found["map"]["omega"].shape == (3, 3)
+    assert np.isnan(found["map"]["error"][0]).all()
+    with pytest.raises(gyration.ArgumentError, match="no model"):
+        gyration.continuum(CHAIN, model="hooke")
+
+
+def test_an_orbit_has_the_period_of_its_amplitude():
+    well = {
+        "world": {"gravity": [0, 0, 0]},
+        "time": {"end": 8, "sample": 1},
+        "body": [
+            {
+                "name": "a",
+                "shape": {"points": [{"mass": 1, "at": [0, 0, 0]}]},
+                "position": [0.9, 0, 0],
+                "potential": "0.5*x^2 + 0.25*x^4",
+            }
+        ],
+    }
+    found = gyration.orbit(well, amplitude=("body.a.x", 1))
+    assert found["period"] == pytest.approx(4.768022029, abs=2e-9)
+    assert found["stable"] and found["multipliers"].shape == (6, 2)
+    np.testing.assert_allclose(found["start"]["a"]["position"][0], 1, rtol=1e-9)
