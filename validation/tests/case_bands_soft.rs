@@ -1,7 +1,7 @@
 //! Waves through chains of granules that keep their volume, that are stretched, or that drive themselves.
 
 use crate::lattices::{
-    BETWEEN, GRANULE, LENGTH, LatticeScene, Link, VOLUME, between_faces, frequencies, nearest, nearest_root, row,
+    BETWEEN, GRANULE, LENGTH, LatticeScene, Link, VOLUME, frequencies, granules_that_feel, nearest, nearest_root, row,
 };
 use gyration_validation::Case;
 use nalgebra::Complex;
@@ -135,15 +135,7 @@ fn granules_that_feel_their_stretch_damp_or_drive_waves() {
         (3000.0, 20.0, PI / 3.0, Complex::new(-100.774452, 0.0), "g 3000, contraction"),
     ];
     for (gain, drag, q, near, quantity) in listed {
-        let kind = format!(
-            "contractile = {{ {}, contraction_viscosity = {drag}, drive = {{ constant = {{ value = [[0, 0, 0], [0, 0, \
-             0], [0, 0, 0]] }} }}, feedback = {{ measure = {{ stretch = [1, 0, 0] }}, gain = [[{}, 0, 0], [0, 0, 0], \
-             [0, 0, 0]], bias = [[{gain}, 0, 0], [0, 0, 0], [0, 0, 0]] }} }}",
-            GRANULE.material(),
-            -gain,
-        );
-        let chain = LatticeScene::new(&[[1.0, 0.0, 0.0]]).body("a", [0.0; 3], &GRANULE.table(&kind));
-        let waves = chain.spring(between_faces(["a", "a"], [1, 0, 0])).waves();
+        let waves = granules_that_feel(gain, drag).waves();
         // Newton's method from the six digits of the list, with a derivative by differences.
         let (mut root, at) = (near, |root| characteristic([drag, gain], q, root));
         for _ in 0..20 {

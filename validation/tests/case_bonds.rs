@@ -24,7 +24,7 @@ fn scene(text: &str) -> Scene {
 /// The bands at q along the first direction.
 fn bands(text: &str, q: f64) -> BandSurvey {
     let path = format!("{:?},0,0", q / TAU);
-    let options = BandOptions { points: 2, mesh: None, shapes: false, strain: None };
+    let options = BandOptions { points: 2, ..BandOptions::default() };
     BandSurvey::of(&scene(text), Some(&path), options).unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -8,7 +8,8 @@ use nalgebra::Complex;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path;
 
-const OPTIONS: BandOptions = BandOptions { points: 2, mesh: None, shapes: false, strain: None };
+const OPTIONS: BandOptions =
+    BandOptions { points: 2, mesh: None, shapes: false, strain: None, derivatives: Vec::new(), bound: false };
 
 fn scene(name: &str) -> Scene {
     gyration_sim::open(name, &[]).unwrap_or_else(|errors| panic!("{errors}"))

@@ -4,6 +4,8 @@
 
 mod case_absorbing_ends;
 mod case_balanced_pairs;
+mod case_band_bounds;
+mod case_band_derivatives;
 mod case_bands;
 mod case_bands_relations;
 mod case_bands_soft;

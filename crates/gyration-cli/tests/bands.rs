@@ -183,3 +183,44 @@ fn a_cell_rests_under_its_stress_or_is_told_to_be_floppy() {
     let said = sandbox.refused(2, &["bands", "square.toml"]);
     assert!(said.stderr.contains("F̄_xy"), "{}", said.stderr);
 }
+
+#[test]
+fn derivatives_and_bounds_are_added() {
+    let sandbox = sandbox();
+    let keys = "spring.0.stiffness body.a.shape.points.0.mass";
+    let path = ["string.toml", "--path", "0,0,0 X=1/2,0,0", "--points", "3"];
+    let found = json(&sandbox, &[&path[..], &["--derivatives", keys, "--bound"]].concat());
+    let along = 2.0 * 80_f64.sqrt();
+    let near = |found: &Value, expected: f64| {
+        let found = found.as_f64().unwrap();
+        // Differences of fourth order of neighbouring scenes.
+        assert!((found - expected).abs() < 1e-9 * expected.abs(), "{found} {expected}");
+    };
+    near(&found["derivatives"]["spring.0.stiffness"][2][2], along / 80.0);
+    near(&found["derivatives"]["body.a.shape.points.0.mass"][2][2], -along);
+    // Nothing opposes a translation: ω is 0, and has no derivative.
+    assert_eq!(found["derivatives"]["spring.0.stiffness"][0], serde_json::json!([null, null, null]));
+    let bound = found["bound"][2][2].as_f64().unwrap();
+    assert!(bound > 0.0 && bound < 1e-12 * along, "{bound}");
+    let plain = json(&sandbox, &path);
+    assert!(plain.get("derivatives").is_none() && plain.get("bound").is_none());
+    let said = sandbox.done(&[&["bands"], &path[..], &["--derivatives", keys, "--bound"]].concat());
+    assert!(said.stdout.contains("∂ln ω/∂ln p by branch at X κ = (0.5000, 0.0000, 0.0000)"), "{}", said.stdout);
+    assert!(said.stdout.contains("may be off by at most"), "{}", said.stdout);
+}
+
+#[test]
+fn what_is_no_number_has_no_derivative() {
+    let sandbox = sandbox();
+    let refused = |keys: &str, words: &[&str]| {
+        let said = sandbox.refused(2, &["bands", "string.toml", "--derivatives", keys]);
+        assert!(words.iter().all(|word| said.stderr.contains(word)), "{keys}: {}", said.stderr);
+    };
+    refused("constants.k", &["constants.k", "the scene has no `"]);
+    refused("spring.3.stiffness", &["spring.3.stiffness", "0 to 0"]);
+    refused("body.a", &["body.a", "several numbers"]);
+    refused("body.a.name", &["no number"]);
+    refused("solver.rtol", &["solver.rtol", "not how it is"]);
+    refused("spring.0.stiffness spring.0.stiffness", &["stands twice"]);
+    sandbox.refused(2, &["bands", "string.toml", "--complex", "--derivatives", "spring.0.stiffness"]);
+}

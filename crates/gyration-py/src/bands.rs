@@ -25,6 +25,10 @@ use serde_json::json;
 /// body complex ``translation`` (r, b, 3) and ``gradient`` (r, b, 3, 3). ``strain``, ``"xx=-0.05"``, deforms the cell
 /// first.
 ///
+/// ``derivatives``, keys of numbers of the scene as to ``sensitivities``, adds ``derivatives``, a dictionary of ∂ω (r,
+/// b) by key, nan where ω has no derivative. ``bound`` adds ``bound`` [rad/s] (r, b), by how much ω may be off, nan
+/// where that is not known.
+///
 /// ``complex`` gives all κ along ``direction`` (1, 2, 3) at ``points`` frequencies between the two of ``omega``
 /// [rad/s]: ``omega`` (n), and ``kappa``, a list of n complex arrays.
 ///
@@ -33,7 +37,7 @@ use serde_json::json;
 /// lattice first becomes unstable, or None.
 #[pyfunction]
 #[pyo3(signature = (scene, path=None, *, points=101, mesh=None, shapes=false, strain=None, complex=false, direction=1,
-                    omega=None, along=None, steps=21))]
+                    omega=None, along=None, steps=21, derivatives=None, bound=false))]
 #[expect(clippy::too_many_arguments, reason = "the arguments of the command")]
 pub fn bands<'py>(
     py: Python<'py>,
@@ -48,12 +52,23 @@ pub fn bands<'py>(
     omega: Option<[f64; 2]>,
     along: Option<&str>,
     steps: i64,
+    derivatives: Option<Vec<String>>,
+    bound: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
-    refuse_together("complex", complex, &[("mesh", mesh.is_some()), ("shapes", shapes), ("along", along.is_some())])?;
+    let derivatives = derivatives.unwrap_or_default();
+    let besides = [("shapes", shapes), ("derivatives", !derivatives.is_empty()), ("bound", bound)];
+    let refuse_besides = |name, given| refuse_together(name, given, &besides);
+    refuse_together(
+        "complex",
+        complex,
+        &[("mesh", mesh.is_some()), ("along", along.is_some())],
+    )?;
+    refuse_besides("complex", complex)?;
+    refuse_besides("along", along.is_some())?;
     refuse_together(
         "along",
         along.is_some(),
-        &[("path", path.is_some()), ("shapes", shapes), ("strain", strain.is_some())],
+        &[("path", path.is_some()), ("strain", strain.is_some())],
     )?;
     refuse_together("omega", omega.is_some(), &[("complex=False", !complex)])?;
     let scene = Scene::ready(scene)?;
@@ -65,7 +80,7 @@ pub fn bands<'py>(
     }
     let strain =
         strain.map(StrainPath::parse_value).transpose().map_err(|error| errors::arguments(error.to_string()))?;
-    let options = BandOptions { points: counted("points", points)?, mesh, shapes, strain };
+    let options = BandOptions { points: counted("points", points)?, mesh, shapes, strain, derivatives, bound };
     if complex {
         let wrong = || errors::arguments(format!("{direction} is no direction\n  fix: give 1, 2 or 3"));
         let direction = usize::try_from(direction).ok().filter(|it| (1..=3).contains(it)).ok_or_else(wrong)? - 1;
@@ -117,6 +132,18 @@ fn along_path<'py>(py: Python<'py>, found: &BandSurvey) -> PyResult<Bound<'py, P
     told.set_item("participation", array(py, shares, &[rows, branches, PARTS])?)?;
     if let Some(shapes) = &found.shapes {
         told.set_item("shapes", shapes_of_bodies(py, shapes, [rows, branches])?)?;
+    }
+    let numbers = |rows_of: &[Vec<Option<f64>>]| {
+        let all = rows_of.iter().flatten().map(|number| number.unwrap_or(f64::NAN)).collect();
+        array(py, all, &[rows, branches])
+    };
+    if let Some(derivatives) = &found.derivatives {
+        let by_key = PyDict::new(py);
+        derivatives.by_key.0.iter().try_for_each(|(key, changes)| by_key.set_item(key, numbers(changes)?))?;
+        told.set_item("derivatives", by_key)?;
+    }
+    if let Some(bound) = &found.bound {
+        told.set_item("bound", numbers(bound)?)?;
     }
     told.set_item("labels", &found.labels)?;
     told.set_item("begins", &found.begins)?;

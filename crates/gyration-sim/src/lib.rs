@@ -41,6 +41,7 @@ mod stepping;
 mod sum;
 mod summary;
 pub mod survey;
+mod variation;
 pub mod waves;
 
 pub use adapter::Tolerance;

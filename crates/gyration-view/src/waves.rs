@@ -47,7 +47,7 @@ impl Waves {
     /// # Errors
     /// Why there are none, in words.
     pub fn bands(&self, path: Option<&str>) -> Result<Value, String> {
-        let options = BandOptions { points: POINTS, mesh: None, shapes: false, strain: None };
+        let options = BandOptions { points: POINTS, ..BandOptions::default() };
         let found = within(&self.scene, || BandSurvey::of(&self.scene, path, options))?;
         let BandSurvey { kappa, k, omega, decay, participation, labels, vertices, begins, warnings, .. } = found;
         Ok(json!({

@@ -163,3 +163,16 @@ pub fn between_faces<'a>(between: [&'a str; 2], cell: [i32; 3]) -> Link<'a> {
     let half = 0.5 * LENGTH;
     Link { between, cell, points: [[half, 0.0, 0.0], [-half, 0.0, 0.0]], law: [BETWEEN, 1.0 - LENGTH, 0.0] }
 }
+
+/// Granules of case 8 whose contraction has this drag and follows their stretch with this gain.
+pub fn granules_that_feel(gain: f64, drag: f64) -> LatticeScene {
+    let kind = format!(
+        "contractile = {{ {}, contraction_viscosity = {drag}, drive = {{ constant = {{ value = [[0, 0, 0], [0, 0, \
+         0], [0, 0, 0]] }} }}, feedback = {{ measure = {{ stretch = [1, 0, 0] }}, gain = [[{}, 0, 0], [0, 0, 0], \
+         [0, 0, 0]], bias = [[{gain}, 0, 0], [0, 0, 0], [0, 0, 0]] }} }}",
+        GRANULE.material(),
+        -gain,
+    );
+    let chain = LatticeScene::new(&[[1.0, 0.0, 0.0]]).body("a", [0.0; 3], &GRANULE.table(&kind));
+    chain.spring(between_faces(["a", "a"], [1, 0, 0]))
+}

@@ -1,5 +1,6 @@
 //! `gyration bands`: the waves of a lattice.
 
+mod derived;
 mod phonopy;
 mod special;
 
@@ -13,11 +14,14 @@ use gyration_record::write_file;
 use gyration_scene::Scene;
 use gyration_sim::format::{significant, vector};
 use gyration_sim::modes::bands::StrainPath;
-use gyration_sim::survey::{BandOptions, BandSurvey, ComplexBandOptions, ComplexBandSurvey, StrainSurvey, unit_cell};
+use gyration_sim::survey::{
+    BandOptions, BandSurvey, ComplexBandOptions, ComplexBandSurvey, StrainSurvey, unit_cell,
+};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// Prints the bands of a lattice along a path, all wave vectors of frequencies, or what becomes of it under strain.
+/// Prints the bands of a lattice along a path, all wave vectors of frequencies, or what becomes of it under
+/// strain.
 pub fn execute(arguments: &Bands) -> Result<u8, CliError> {
     let name = &arguments.scene.scene;
     let scene = waiting(format!("opening {name}"), true, || at_rest(&arguments.scene))?;
@@ -80,11 +84,14 @@ fn strain(text: &str) -> Result<StrainPath, CliError> {
 }
 
 fn options(arguments: &Bands) -> Result<BandOptions, CliError> {
+    let keys = arguments.derivatives.iter().flat_map(|keys| keys.split_whitespace());
     Ok(BandOptions {
         points: arguments.points.get(),
         mesh: arguments.mesh.map(std::num::NonZero::get),
         shapes: arguments.shapes,
         strain: arguments.strain.as_deref().map(strain).transpose()?,
+        derivatives: keys.map(str::to_owned).collect(),
+        bound: arguments.bound,
     })
 }
 
@@ -106,6 +113,8 @@ fn in_words(title: &str, found: &BandSurvey) -> String {
     // Writing to a string does not fail.
     let _ = write_rest(&mut text, found);
     let _ = write_rows(&mut text, found);
+    let _ = derived::write_bound(&mut text, found);
+    let _ = derived::write_derivatives(&mut text, found);
     let _ = write_gaps(&mut text, found);
     text
 }

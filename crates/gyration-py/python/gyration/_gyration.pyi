@@ -378,6 +378,8 @@ def bands(
     omega: tuple[float, float] | None = None,
     along: str | None = None,
     steps: int = 21,
+    derivatives: Sequence[str] | None = None,
+    bound: bool = False,
 ) -> dict[str, Any]: ...
 def continuum(
     scene: _SceneLike,

@@ -105,6 +105,24 @@ impl Coordinates {
         self.rates.ncols()
     }
 
+    /// The sizes of the numbers of places along z: those of P, and of a centre with a length beyond its cell.
+    pub fn sizes(&self, body: &Body, block: &[f64], beyond: f64) -> DVector<f64> {
+        let center = Slots::of(body, 0).position();
+        let sizes = DVector::from_fn(self.rates.nrows(), |row, _| match &body.kind {
+            _ if row < center.len() => block[center.start + row].abs() + beyond,
+            BodyKind::Rigid(_) => 1.0,
+            BodyKind::Affine(_) | BodyKind::Contractile(_) => self.gradient.amax(),
+        });
+        self.weights.abs() * sizes
+    }
+
+    /// By how much the mass along z is not one.
+    pub fn mass_error(&self, body: &Body) -> f64 {
+        let mass = self.rates.tr_mul(&(mass(body) * &self.rates));
+        let one = DMatrix::identity(mass.nrows(), mass.ncols());
+        (mass - one).norm()
+    }
+
     /// Moves the places of a block along z.
     pub fn advance(&self, block: &mut [f64], z: &DVector<f64>) {
         let change = &self.places * z;

@@ -18,6 +18,8 @@ use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 use std::sync::Arc;
 
+/// Sweeps of a singular value decomposition at most.
+const SWEEPS: usize = 10_000;
 /// A part in quadrature below this is rounding.
 const IN_STEP: f64 = 1e-6;
 
@@ -138,6 +140,47 @@ impl SystemCoordinates {
     /// Whether the contraction of a body moves.
     pub fn contracts(&self) -> bool {
         self.counts()[1] > 0
+    }
+
+    /// The turn that takes coordinates of one cell nearest to those of a neighbouring one: U of X = U |X|, X = N₀ᵀ V₀†
+    /// V N.
+    ///
+    /// None if they are not alike.
+    pub fn turn(from: &Self, to: &Self) -> Option<DMatrix<f64>> {
+        let mut seen = DMatrix::zeros(to.count(), from.count());
+        for (own, other) in from.bodies.iter().zip(&to.bodies) {
+            let (rates, weights) = (own.places.rates(), other.places.weights());
+            if rates.nrows() != weights.ncols() {
+                return None;
+            }
+            let shape = (other.z.len(), own.z.len());
+            seen.view_mut((other.z.start, own.z.start), shape).copy_from(&(weights * rates));
+        }
+        let seen = to.rows_within(from.columns_within(seen));
+        if from.bodies.len() != to.bodies.len() || !seen.is_square() {
+            return None;
+        }
+        if seen.is_empty() {
+            return Some(seen);
+        }
+        let svd = seen.try_svd(true, true, f64::EPSILON, SWEEPS)?;
+        Some(svd.u? * svd.v_t?)
+    }
+
+    /// The sizes of the numbers of places along y, centres with a length beyond their cells.
+    pub fn sizes(&self, frozen: &FrozenSystem, numbers: &[f64], beyond: f64) -> DVector<f64> {
+        let mut sizes = DVector::zeros(self.count());
+        for (body, at) in frozen.bodies().iter().zip(&self.bodies) {
+            let own = at.places.sizes(body, &numbers[at.slots.block()], beyond);
+            sizes.rows_mut(at.z.start, at.z.len()).copy_from(&own);
+        }
+        self.tangent.as_ref().map_or(sizes.clone(), |tangent| tangent.basis().abs().tr_mul(&sizes))
+    }
+
+    /// By how much the mass along z is not one, at most.
+    pub fn mass_error(&self, frozen: &FrozenSystem) -> f64 {
+        let bodies = frozen.bodies().iter().zip(&self.bodies);
+        bodies.map(|(body, at)| at.places.mass_error(body)).fold(0.0, f64::max)
     }
 
     /// z̈ from the rates of all numbers.

@@ -4,8 +4,8 @@
 //! of a prescribed contraction; with the instant t_k(p) it takes S along by (f⁻ − f⁺) dt_k/dp. Differences by p are
 //! taken on one side of a kink, so far from it that the neighbours' kinks do not lie between.
 
-use super::variation::{NoDerivative, SceneVariation};
 use crate::island::horizon::next_kink;
+use crate::variation::{NoDerivative, SceneVariation};
 use gyration::model::Model;
 
 /// More kinks than that are not followed.

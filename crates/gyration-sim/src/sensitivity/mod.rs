@@ -5,26 +5,23 @@
 //! for a number p (a dotted key, as in `--set`) and a recorded quantity r (a column of the CSV), at the end or at each
 //! sample. The run is the usual one; S follows it step by step (`tangent`) with the exact Jacobian, by a method that
 //! neither stiffness nor long steps harm (`collocation`). What depends on p at a fixed state is differentiated between
-//! models of neighbouring scenes (`variation`); where a kink of a signal moves with p, so does S (`kinks`).
+//! models of neighbouring scenes (`crate::variation`); where a kink of a signal moves with p, so does S (`kinks`).
 //!
 //! A derivative is one at a fixed time. Where it means nothing there is a [`Meaningless`] with the reason: see
 //! `docs/sensitivities.md`.
 
 mod blocks;
 mod collocation;
-mod difference;
 mod flow;
 mod history;
 mod kinks;
-mod levels;
-mod number;
 mod probe;
 mod quantity;
 mod stage_equations;
 mod tangent;
-mod variation;
 mod works;
 
+pub use crate::variation::UnknownNumber;
 pub(crate) use flow::{Flow, NoFlow, each_state};
 pub(crate) use probe::SCALES;
 pub(crate) use quantity::Quantities;
@@ -35,16 +32,13 @@ use crate::ports::RunError;
 use crate::record::{MemorySink, Unwatched};
 use crate::rows::Extras;
 use crate::run::Simulation;
+use crate::variation::{NOT_SMOOTH, SceneNumber, SceneVariation};
 use gyration_ode::Integrator;
 use gyration_scene::Scene;
-use number::SceneNumber;
 use tangent::Tangent;
-use variation::SceneVariation;
 
 /// The part of the motion that may be lost to the growth of errors: rtol times growth.
 const GROWN: f64 = 0.1;
-/// Two estimates of ∂f/∂p may differ by this part of the largest.
-const DOUBT: f64 = 1e-3;
 
 /// When derivatives are asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,15 +89,8 @@ pub struct Meaningless {
 #[derive(Debug, thiserror::Error)]
 pub enum SensitivityError {
     /// A key that names no number.
-    #[error("{key}: {message}; {help}")]
-    Key {
-        /// The key.
-        key: String,
-        /// What is wrong.
-        message: String,
-        /// What to do.
-        help: String,
-    },
+    #[error(transparent)]
+    Key(#[from] UnknownNumber),
     /// A name that is no column.
     #[error("{name}: not a quantity that has derivatives; {help}")]
     Quantity {
@@ -215,7 +202,7 @@ impl Sensitivities {
                 let reason = format!("the run ends there, before its time: {}", stop.what);
                 derivatives.lost = Some(Meaningless { from: stop.time, reason });
             }
-            if derivatives.lost.is_none() && doubt > DOUBT {
+            if derivatives.lost.is_none() && doubt > NOT_SMOOTH {
                 let reason = "the equations are not smooth in it".to_owned();
                 *derivatives = Derivatives { rows: Vec::new(), lost: Some(Meaningless { from: 0.0, reason }) };
             }

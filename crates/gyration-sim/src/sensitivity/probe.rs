@@ -1,9 +1,9 @@
 //! Scales of the state, and derivatives of what is known in a state along a direction of it.
 
 use super::Meaningless;
-use super::variation::NoDerivative;
 use crate::adapter::{ModelSystem, Tolerance};
 use crate::outcome::Stop;
+use crate::variation::NoDerivative;
 use gyration::Inadmissible;
 use gyration::model::Model;
 use gyration::state::State;

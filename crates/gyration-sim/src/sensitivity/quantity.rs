@@ -2,8 +2,8 @@
 
 use super::SensitivityError;
 use super::probe::along;
-use super::variation::{NoDerivative, SceneVariation};
 use crate::rows::{Extras, Fields, RowScratch};
+use crate::variation::{NoDerivative, SceneVariation};
 use gyration::Inadmissible;
 use gyration::dynamics::Workspace;
 use gyration::model::Model;

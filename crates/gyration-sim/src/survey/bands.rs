@@ -1,14 +1,18 @@
 //! Bands of a lattice, in a form to print.
 
 use super::modes::{Named, RestPlace, left_out};
+use super::varied_bands::{BandNumber, VariedBands};
 use crate::modes::PARTS;
 use crate::modes::bands::{
-    BandPath, BandRow, BandShape, LatticeWaves, MOST_POINTS, NoBands, Sound, StrainPath, StrainedCell, Zone,
+    BandPath, BandRow, BandShape, LatticeWaves, MOST_POINTS, NoBands, RowRequest, Sound, StrainPath, StrainedCell, Zone,
 };
 use crate::waves::PassingWaves;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::{Scene, UnitCell};
 use serde::Serialize;
+
+/// An error of the derivatives of matrices from which on it is told, as a part of their largest entries: usual is 1e-9.
+const UNSURE: f64 = 1e-7;
 
 /// The bands of a lattice along a path.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -30,6 +34,12 @@ pub struct BandSurvey {
     /// The shape of each branch, of each body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shapes: Option<Vec<Vec<Named<BandShape>>>>,
+    /// ∂ω of each branch by numbers of the scene; none where that was not asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub derivatives: Option<BandDerivatives>,
+    /// By how much ω of each branch may be off [rad/s]; none where that was not asked for, or is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bound: Option<Vec<Vec<Option<f64>>>>,
     /// The vertices with names: the number of the row, and the name.
     pub labels: Vec<(usize, String)>,
     /// The rows at which there are vertices.
@@ -48,6 +58,17 @@ pub struct BandSurvey {
     pub warnings: Vec<String>,
 }
 
+/// ∂ω by numbers of a scene [rad/s per unit of each].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct BandDerivatives {
+    /// By the key of each number: a row a wave vector, an entry a branch; none where ω has no derivative.
+    pub by_key: Named<Vec<Vec<Option<f64>>>>,
+    /// The numbers, in the same order.
+    #[serde(skip)]
+    pub numbers: Vec<f64>,
+}
+
 /// Where the cell is looked at.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CellRestSurvey {
@@ -62,7 +83,7 @@ pub struct CellRestSurvey {
 }
 
 /// What is asked of bands.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct BandOptions {
     /// Wave vectors a segment of the path.
     pub points: usize,
@@ -72,6 +93,10 @@ pub struct BandOptions {
     pub shapes: bool,
     /// How the cell is deformed at first, if it is: its bodies then seek their rest; of a path its beginning counts.
     pub strain: Option<StrainPath>,
+    /// The dotted keys of numbers by which ω is differentiated.
+    pub derivatives: Vec<String>,
+    /// Whether it is wanted by how much ω may be off.
+    pub bound: bool,
 }
 
 /// The cell of a scene whose bands are asked for.
@@ -121,8 +146,12 @@ impl BandSurvey {
         let path = path_of(cell, path, options.points)?;
         options.mesh.map_or(Ok(()), |mesh| check_mesh(mesh, &cell.periodic))?;
         let told = |error: NoBands| error.to_string();
-        let waves = waves_of(cell, options.strain.as_ref()).map_err(told)?;
-        let rows = path.points.iter().map(|point| waves.row(point, options.shapes));
+        let strain = options.strain.as_ref();
+        let mut found = VariedBands::of(scene, strain, &options.derivatives)?;
+        let doubt = if options.bound { Some(found.doubt(scene, strain)?) } else { None };
+        let (waves, varied) = (&found.waves, &found.varied);
+        let request = RowRequest { shapes: options.shapes, varied, doubt: doubt.as_ref() };
+        let rows = path.points.iter().map(|point| waves.row_of(point, request));
         let rows: Vec<BandRow> = rows.collect::<Result<_, _>>().map_err(told)?;
         let zone = options.mesh.map(|mesh| waves.zone(mesh, &cell.periodic)).transpose().map_err(told)?;
         let names: Vec<&str> = cell.model.names().collect();
@@ -149,15 +178,40 @@ impl BandSurvey {
                 .collect(),
             participation: rows.iter().map(|row| row.branches.iter().map(|it| it.participation).collect()).collect(),
             shapes,
+            derivatives: derivatives(&rows, &found.numbers),
+            bound: doubt.map(|_| rows.iter().map(|row| row.branches.iter().map(|it| it.bound).collect()).collect()),
             labels: points().filter_map(|(row, point)| Some((row, point.label.clone()?))).collect(),
             vertices: points().filter(|(_, point)| point.is_vertex).map(|(row, _)| row).collect(),
             begins: points().filter(|(_, point)| point.begins).map(|(row, _)| row).collect(),
             sound: waves.sound(&cell.periodic).map_err(told)?,
-            rest: cell_rest(&waves, &names),
-            warnings: warnings_of(&waves, &rows),
+            rest: cell_rest(waves, &names),
+            warnings: [warnings_of(waves, &rows), unsure(&found.numbers)].concat(),
             zone,
         })
     }
+}
+
+/// ∂ω by each number; none without numbers.
+fn derivatives(rows: &[BandRow], numbers: &[BandNumber]) -> Option<BandDerivatives> {
+    let by_number = |(index, number): (usize, &BandNumber)| {
+        let of_row = |row: &BandRow| row.branches.iter().map(|branch| branch.changes[index]).collect();
+        (number.key.clone(), rows.iter().map(of_row).collect())
+    };
+    let by_key = Named(numbers.iter().enumerate().map(by_number).collect());
+    let numbers: Vec<f64> = numbers.iter().map(|number| number.value).collect();
+    (!numbers.is_empty()).then_some(BandDerivatives { by_key, numbers })
+}
+
+/// Numbers whose derivatives are known less well than others.
+fn unsure(numbers: &[BandNumber]) -> Vec<String> {
+    let told = |number: &BandNumber| {
+        format!(
+            "derivatives by {} are made of changes of the matrices that are known to {:.0e} of their largest entries: \
+             what it changes is not smooth in it, or known to few digits",
+            number.key, number.error
+        )
+    };
+    numbers.iter().filter(|number| number.error > UNSURE).map(told).collect()
 }
 
 /// The waves of a cell, deformed or as it is written.

@@ -32,9 +32,10 @@ mod springs;
 mod strained;
 mod supports;
 mod text;
+mod varied_bands;
 mod words;
 
-pub use bands::{BandOptions, BandSurvey, CellRestSurvey, passing_waves, unit_cell};
+pub use bands::{BandDerivatives, BandOptions, BandSurvey, CellRestSurvey, passing_waves, unit_cell};
 pub use bodies::{BodyModes, BodySurvey, PairSurvey, SceneModes, Survey, SystemModes, modes, modes_in_json};
 pub use complex_bands::{ComplexBandOptions, ComplexBandSurvey};
 pub use continuum::{ContinuumMap, ContinuumSurvey};
@@ -52,4 +53,5 @@ pub use softness::{ProposedLaws, SoftnessSurvey};
 pub use springs::SpringSurvey;
 pub use strained::{InstabilitySurvey, StrainRow, StrainSurvey};
 pub use supports::{PlaneSurvey, SupportSurvey};
+pub use varied_bands::{VariedBands, VariedFrequencies};
 pub use words::write_rest;

@@ -7,17 +7,15 @@
 
 use super::super::frozen::FrozenSystem;
 use super::super::participation::{PARTS, energies};
-use super::super::spectrum::FirstOrder;
 use super::super::system::SystemCoordinates;
 use super::super::weightless::{Inertial, MotionMatrices};
+pub(super) use super::by_cell::C64;
+use super::by_cell::{CellMatrices, MatricesByCell, phase};
 use gyration::Inadmissible;
 use gyration::lattice::{Cell, HERE, Lattice, opposite};
 use gyration::tensor::Vec3;
-use nalgebra::{Complex, ComplexField, DMatrix, DVector, Vector3};
-use std::f64::consts::TAU;
+use nalgebra::{ComplexField, DMatrix, DVector, Vector3};
 use std::ops::Range;
-
-pub(super) type C64 = Complex<f64>;
 
 /// Differences below this part of the largest entry are the rounding of a Jacobian.
 const ROUNDING: f64 = 1e-11;
@@ -28,9 +26,7 @@ const NO_SHARE: f64 = 1e-15;
 /// The matrices of the cells that act on one.
 #[derive(Debug)]
 pub(super) struct BlochSystem {
-    cells: Vec<CellMatrices>,
-    /// How many ξ and γ there are.
-    pub counts: [usize; 2],
+    cells: MatricesByCell,
     /// The largest |K| that there may be [1/s²].
     pub stiffest: f64,
     /// The same of what has inertia.
@@ -39,21 +35,10 @@ pub(super) struct BlochSystem {
     pub inertial: Inertial,
     /// Whether K(k) is Hermitian at every k, and nothing else acts.
     pub is_conservative: bool,
+    /// Whether what else acts does no work.
+    pub is_lossless: bool,
     /// Of each body: where its ξ stand, and twice the kinetic energy of each part of a motion as a form of them.
     parts: Vec<(Range<usize>, [DMatrix<f64>; PARTS])>,
-}
-
-/// What one cell does to another.
-#[derive(Debug)]
-struct CellMatrices {
-    cell: Cell,
-    /// R [m].
-    place: Vec3,
-    stiffness: DMatrix<f64>,
-    /// The entries of the stiffness that are not zero, few between cells.
-    entries: Vec<(usize, usize, f64)>,
-    resistance: DMatrix<f64>,
-    first: FirstOrder,
 }
 
 impl BlochSystem {
@@ -67,51 +52,55 @@ impl BlochSystem {
         lattice: &Lattice,
         (numbers, rates): (&[f64], &[f64]),
     ) -> Result<Self, Inadmissible> {
-        let slopes = frozen.slopes(numbers)?;
-        let velocities = coordinates.contraction_velocities(frozen, numbers, rates);
-        let cells = slopes.cells().into_iter().map(|cell| {
-            let own = slopes.of_cell(cell);
-            let (stiffness, first) = coordinates.first_order(&velocities, &own);
-            let (place, entries) = (lattice.place(cell), entries(&stiffness));
-            CellMatrices { cell, place, stiffness, entries, resistance: coordinates.resistance(&own), first }
-        });
-        let cells: Vec<CellMatrices> = cells.collect();
-        let counts = coordinates.counts();
-        let stiffest = cells.iter().map(|cell| cell.stiffness.norm()).sum();
-        let is_conservative = is_conservative(&cells, stiffest) && counts[1] == 0;
+        let cells = matrices(frozen, coordinates, lattice, (numbers, rates))?;
+        let stiffest = cells.stiffest();
+        let is_symmetric = is_mirrored(&cells.cells, stiffest, 1.0, |cell| &cell.stiffness);
+        let is_conservative = cells.has_only_stiffness() && is_symmetric;
+        let is_gyroscopic = is_mirrored(&cells.cells, cells.most_resisting(), -1.0, |cell| &cell.resistance);
         let parts = parts(frozen, coordinates, numbers);
         let inertial = coordinates.inertial(frozen);
         let stiffest_moving = match inertial.weightless.is_empty() {
             true => stiffest,
-            false => cells.iter().map(|cell| cell.stiffness.select_rows(&inertial.moving).norm()).sum(),
+            false => cells.cells.iter().map(|cell| cell.stiffness.select_rows(&inertial.moving).norm()).sum(),
         };
-        Ok(Self { cells, counts, stiffest, stiffest_moving, inertial, is_conservative, parts })
+        let is_lossless = is_symmetric && is_gyroscopic && cells.counts[1] == 0 && inertial.weightless.is_empty();
+        Ok(Self { cells, stiffest, stiffest_moving, inertial, is_conservative, is_lossless, parts })
+    }
+
+    /// How many ξ and γ there are.
+    pub fn counts(&self) -> [usize; 2] {
+        self.cells.counts
+    }
+
+    /// The matrices of all cells.
+    pub fn by_cell(&self) -> &MatricesByCell {
+        &self.cells
     }
 
     /// The matrices at κ.
     pub fn wave(&self, kappa: &[f64; 3]) -> MotionMatrices {
-        self.summed(|cell| phase(kappa, cell.cell))
+        self.cells.at(kappa)
     }
 
     /// Their derivatives by k along a direction [m × each].
     pub fn slope(&self, kappa: &[f64; 3], along: &Vec3) -> MotionMatrices {
-        self.summed(|cell| phase(kappa, cell.cell) * C64::new(0.0, cell.place.dot(along)))
+        self.cells.weighted(|cell| phase(kappa, cell.cell) * C64::new(0.0, cell.place.dot(along)))
     }
 
     /// Their second derivatives at k = 0 along a direction [m² × each].
     pub fn curvature(&self, along: &Vec3) -> MotionMatrices {
-        self.summed(|cell| C64::new(-cell.place.dot(along) * cell.place.dot(along), 0.0))
+        self.cells.weighted(|cell| C64::new(-cell.place.dot(along) * cell.place.dot(along), 0.0))
     }
 
     /// The cells that act on the one: which, R [m] and K_R [1/s²].
     pub fn stiffnesses(&self) -> impl Iterator<Item = (Cell, Vec3, &DMatrix<f64>)> {
-        self.cells.iter().map(|cell| (cell.cell, cell.place, &cell.stiffness))
+        self.cells.cells.iter().map(|cell| (cell.cell, cell.place, &cell.stiffness))
     }
 
     /// ζᴴ (∂K/∂k) ξ, a component each axis of space [m/s²].
     pub fn stiffness_slope(&self, kappa: &[f64; 3], left: &DVector<C64>, right: &DVector<C64>) -> Vector3<C64> {
         let mut slope = Vector3::zeros();
-        for cell in self.cells.iter().filter(|cell| cell.cell != HERE) {
+        for cell in self.cells.cells.iter().filter(|cell| cell.cell != HERE) {
             let terms = cell.entries.iter().map(|(i, j, entry)| left[*i].conjugate() * right[*j] * *entry);
             let factor = phase(kappa, cell.cell) * C64::new(0.0, 1.0) * terms.sum::<C64>();
             slope += cell.place.map(|component| factor * component);
@@ -121,7 +110,7 @@ impl BlochSystem {
 
     /// How many cells away along a direction something still acts.
     pub fn reach(&self, direction: usize) -> i32 {
-        self.cells.iter().map(|cell| cell.cell[direction].abs()).max().unwrap_or(0)
+        self.cells.cells.iter().map(|cell| cell.cell[direction].abs()).max().unwrap_or(0)
     }
 
     /// The part of the cells that are so many away along a direction, with the phases of the others.
@@ -129,32 +118,7 @@ impl BlochSystem {
         let mut across = *kappa;
         across[direction] = 0.0;
         let is_in = |cell: Cell| cell[direction] == layer;
-        self.summed(|cell| if is_in(cell.cell) { phase(&across, cell.cell) } else { C64::new(0.0, 0.0) })
-    }
-
-    fn summed(&self, factor: impl Fn(&CellMatrices) -> C64) -> MotionMatrices {
-        let mut sum = MotionMatrices::zeros(self.counts);
-        let add = |sum: &mut DMatrix<C64>, part: &DMatrix<f64>, factor: C64| {
-            sum.iter_mut().zip(part.iter()).for_each(|(sum, part)| *sum += factor * *part);
-        };
-        for cell in &self.cells {
-            let factor = factor(cell);
-            if factor == C64::new(0.0, 0.0) {
-                continue;
-            }
-            for (i, j, entry) in &cell.entries {
-                sum.stiffness[(*i, *j)] += factor * *entry;
-            }
-            if self.is_conservative {
-                continue;
-            }
-            add(&mut sum.resistance, &cell.resistance, factor);
-            add(&mut sum.forces, &cell.first.forces, factor);
-            add(&mut sum.by_place, &cell.first.by_place, factor);
-            add(&mut sum.by_rate, &cell.first.by_rate, factor);
-            add(&mut sum.own, &cell.first.own, factor);
-        }
-        sum
+        self.cells.weighted(|cell| if is_in(cell.cell) { phase(&across, cell.cell) } else { C64::new(0.0, 0.0) })
     }
 
     /// The shares of a motion: translation, rotation, shear, stretch, breathing.
@@ -172,41 +136,35 @@ impl BlochSystem {
     }
 }
 
-/// e^{2πi κ·n}.
-fn phase(kappa: &[f64; 3], cell: Cell) -> C64 {
-    unit_phase(kappa.iter().zip(cell).map(|(kappa, n)| kappa * f64::from(n)).sum())
+/// The matrices of all cells about a state, with its coordinates and rates there.
+///
+/// # Errors
+/// [`Inadmissible`] if the state is outside the model.
+pub(super) fn matrices(
+    frozen: &mut FrozenSystem,
+    coordinates: &SystemCoordinates,
+    lattice: &Lattice,
+    (numbers, rates): (&[f64], &[f64]),
+) -> Result<MatricesByCell, Inadmissible> {
+    let slopes = frozen.slopes(numbers)?;
+    let velocities = coordinates.contraction_velocities(frozen, numbers, rates);
+    let cells = slopes.cells().into_iter().map(|cell| {
+        let own = slopes.of_cell(cell);
+        let (stiffness, first) = coordinates.first_order(&velocities, &own);
+        CellMatrices::new((cell, lattice.place(cell)), stiffness, coordinates.resistance(&own), first)
+    });
+    Ok(MatricesByCell::new(cells.collect(), coordinates.counts()))
 }
 
-/// e^{2πi x}; exact where x is a multiple of a quarter.
-pub(crate) fn unit_phase(turns: f64) -> C64 {
-    let quarters = 4.0 * (turns - turns.round());
-    match quarters {
-        0.0 => C64::new(1.0, 0.0),
-        1.0 => C64::new(0.0, 1.0),
-        -1.0 => C64::new(0.0, -1.0),
-        2.0 | -2.0 => C64::new(-1.0, 0.0),
-        _ => {
-            let (sine, cosine) = libm::sincos(0.25 * TAU * quarters);
-            C64::new(cosine, sine)
-        }
-    }
-}
-
-/// The entries of a matrix that are not zero.
-fn entries(matrix: &DMatrix<f64>) -> Vec<(usize, usize, f64)> {
-    let places = (0..matrix.ncols()).flat_map(|j| (0..matrix.nrows()).map(move |i| (i, j)));
-    places.map(|(i, j)| (i, j, matrix[(i, j)])).filter(|(.., entry)| *entry != 0.0).collect()
-}
-
-/// Whether K_{−R} = K_Rᵀ for all R, and nothing resists.
-fn is_conservative(cells: &[CellMatrices], stiffest: f64) -> bool {
+/// Whether A_{−R} = ±A_Rᵀ for all R, given the largest entry that there may be.
+fn is_mirrored(cells: &[CellMatrices], most: f64, sign: f64, of: fn(&CellMatrices) -> &DMatrix<f64>) -> bool {
     cells.iter().all(|cell| {
         let back = cells.iter().find(|other| other.cell == opposite(cell.cell));
         let asymmetry = match back {
-            Some(back) => (&cell.stiffness - back.stiffness.transpose()).amax(),
-            None => cell.stiffness.amax(),
+            Some(back) => (of(cell) - sign * of(back).transpose()).amax(),
+            None => of(cell).amax(),
         };
-        asymmetry <= ROUNDING * stiffest && cell.resistance.amax() == 0.0
+        asymmetry <= ROUNDING * most
     })
 }
 

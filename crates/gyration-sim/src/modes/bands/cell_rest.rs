@@ -7,6 +7,7 @@
 //! holds it.
 
 use super::NoBands;
+use super::doubt::MatrixDoubt;
 use super::strained::StrainedCell;
 use gyration::lattice::Lattice;
 use gyration::tensor::{Mat3, Vec3};
@@ -20,6 +21,8 @@ const MOST: usize = 60;
 const LONGEST: f64 = 0.05;
 /// The step of differences in F̄.
 const DIFFERENCE: f64 = 1e-6;
+/// The step in F̄ by which the matrices are differentiated: their second derivatives then add a little to a bound.
+const PROBE: f64 = 1e-5;
 /// Steps below this are the last.
 const SMALL: f64 = 1e-13;
 /// Stiffness below this part of the largest is none: above what differences leave.
@@ -66,7 +69,8 @@ impl StrainedCell {
             }
             if size <= SMALL || (size < 1e-9 && size >= 0.5 * last) {
                 return match eigen.eigenvalues.iter().position(|value| *value < 0.0) {
-                    None => cell.as_written(&gradient(&x)),
+                    // A step of differences is off by a small part of itself.
+                    None => cell.as_written(&gradient(&x), 2.0 * size + SMALL),
                     Some(k) => Err(NoBands::CellNotHeld(named(&basis, &eigen.eigenvectors.column(k).into_owned()))),
                 };
             }
@@ -74,6 +78,24 @@ impl StrainedCell {
             x += step;
         }
         Err(NoBands::CellNotFound(last))
+    }
+
+    /// What the vectors' search of their rest leaves open of the matrices at a deformation.
+    ///
+    /// # Errors
+    /// [`NoBands`].
+    pub fn doubt(&self, gradient: &Mat3) -> Result<MatrixDoubt, NoBands> {
+        let mut doubt = MatrixDoubt::default();
+        if self.unsettled() == 0.0 {
+            return Ok(doubt);
+        }
+        let (here, waves) = self.at(gradient)?;
+        for basis in components(self.written()) {
+            let (_, beside) = here.at(&(gradient + PROBE * basis))?;
+            let apart = beside.distances(&waves).map(|apart| apart * self.unsettled() / PROBE);
+            doubt = doubt.with(MatrixDoubt::of(apart));
+        }
+        Ok(doubt)
     }
 
     /// ∂(E − Ω₀ S̄·F̄)/∂F̄ or ∂(E + pΩ)/∂F̄ along each component [J].

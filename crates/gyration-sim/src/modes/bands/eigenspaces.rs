@@ -12,6 +12,8 @@ use nalgebra::{ComplexField, DMatrix, DVector, Dyn, Schur, SymmetricEigen};
 pub(super) const SAME: f64 = 1e-8;
 /// Sweeps of an iteration at most, an eigenvalue; a few are the rule.
 const SWEEPS: usize = 30;
+/// The same for small matrices.
+const SMALL_SWEEPS: usize = 10_000;
 /// In so many roundings an entry is none where an iteration does not end otherwise, which the rounding of its own steps
 /// may keep it from.
 const MILDER: [f64; 6] = [1.0, 4.0, 16.0, 64.0, 256.0, 1024.0];
@@ -99,6 +101,33 @@ pub(super) fn hermitian_eigen(matrix: DMatrix<C64>) -> Option<SymmetricEigen<C64
     })?;
     let eigenvalues = found.eigenvalues.map(|value| value - shift[(0, 0)].re);
     Some(SymmetricEigen { eigenvectors: mirror * found.eigenvectors, eigenvalues })
+}
+
+/// The Hermitian part.
+pub(super) fn hermitian(matrix: DMatrix<C64>) -> DMatrix<C64> {
+    let half = C64::new(0.5, 0.0);
+    (&matrix + matrix.adjoint()) * half
+}
+
+/// The eigenvalues of a small matrix.
+pub(super) fn eigenvalues(matrix: &DMatrix<C64>) -> Option<Vec<C64>> {
+    Some(eigenspaces(matrix)?.into_iter().flat_map(|space| space.values).collect())
+}
+
+/// The eigenvectors of a small matrix, if it has as many as rows.
+pub(super) fn eigenvectors(matrix: DMatrix<C64>) -> Option<DMatrix<C64>> {
+    let size = matrix.nrows();
+    let (unitary, triangle) = Schur::try_new(matrix, f64::EPSILON, SMALL_SWEEPS)?.unpack();
+    let mut vectors = DMatrix::identity(size, size);
+    for k in 0..size {
+        for i in (0..k).rev() {
+            let sum: C64 = (i + 1..=k).map(|j| triangle[(i, j)] * vectors[(j, k)]).sum();
+            let gap = triangle[(i, i)] - triangle[(k, k)];
+            vectors[(i, k)] = if sum.modulus() == 0.0 { C64::new(0.0, 0.0) } else { -sum / gap };
+        }
+    }
+    let vectors = unitary * vectors;
+    vectors.iter().all(|entry| entry.re.is_finite() && entry.im.is_finite()).then_some(vectors)
 }
 
 /// The Schur form of a part.

@@ -68,7 +68,7 @@ impl BlochSystem {
     /// Q_n for n from −N to N.
     fn blocks(&self, kappa: &[f64; 3], direction: usize, root: C64) -> Vec<DMatrix<C64>> {
         let reach = self.reach(direction);
-        let [size, own] = self.counts;
+        let [size, own] = self.counts();
         let block = |n: i32| {
             let at = self.wave_of_layer(kappa, direction, n);
             let mut block = DMatrix::zeros(size + own, size + own);

@@ -8,10 +8,14 @@
 //! rest, or about the state as it is written. `continuum` expands the matrices about k = 0.
 
 mod bloch;
+mod bound;
+mod by_cell;
 mod cell_rest;
 mod continuum;
+mod doubt;
 mod eigenspaces;
 mod evanescent;
+mod first_order;
 mod mesh;
 mod path;
 #[cfg(test)]
@@ -19,23 +23,27 @@ mod relations;
 mod sound;
 mod stability;
 mod strained;
+mod varied;
+mod wave;
 mod waves;
 
 pub use continuum::{Continuum, ContinuumModel, NoContinuum, Reach, Tensor, frequency_error};
+pub use doubt::MatrixDoubt;
 pub use mesh::{BandGap, StateDensity, Zone};
 pub use path::{BandPath, MOST_POINTS, PathError, PathPoint};
 pub use sound::Sound;
 pub use stability::{LeastSquare, Stability, Unstable, ZoneMesh};
 pub use strained::{Instability, StrainError, StrainPath, StrainedCell, StrainedRow};
+pub use varied::VariedCell;
 
 use super::frozen::{FrozenContraction, FrozenSystem};
 use super::participation::PARTS;
 use super::shape::ModeShape;
 use super::system::SystemCoordinates;
 use super::{NoRest, Rest, RestContraction, equilibrium, system_rest};
-pub(crate) use bloch::unit_phase;
 use bloch::{BlochSystem, C64};
-use eigenspaces::hermitian_eigen;
+pub(crate) use by_cell::unit_phase;
+use eigenspaces::{hermitian, hermitian_eigen};
 use gyration::Inadmissible;
 use gyration::lattice::Lattice;
 use gyration::model::Model;
@@ -44,7 +52,8 @@ use gyration::tensor::{Mat3, Vec3};
 use gyration_threads::Interruption;
 use nalgebra::DVector;
 use serde::Serialize;
-use waves::{NEUTRAL, Waves, hermitian};
+use wave::Asked;
+use waves::{NEUTRAL, Waves};
 
 /// A cell of a lattice about a state in which it rests, or is written.
 #[derive(Debug)]
@@ -54,6 +63,8 @@ pub struct LatticeWaves {
     system: BlochSystem,
     lattice: Lattice,
     rest: CellRest,
+    /// Whether its bodies have sought their rest.
+    is_relaxed: bool,
 }
 
 /// Where the cell is looked at, and how it is loaded there.
@@ -123,6 +134,22 @@ pub struct Branch {
     pub participation: [f64; PARTS],
     /// How each body moves; none where that was not asked for.
     pub shapes: Vec<BandShape>,
+    /// ∂ω by each number that was asked for [rad/s per unit of it], ascending among branches of one frequency; none
+    /// where ω has no derivative.
+    pub changes: Vec<Option<f64>>,
+    /// By how much ω may be off [rad/s]; none where that was not asked for, or is not known.
+    pub bound: Option<f64>,
+}
+
+/// What is asked of the waves at a point.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct RowRequest<'a> {
+    /// Whether shapes are wanted.
+    pub shapes: bool,
+    /// Numbers by which ω is differentiated.
+    pub varied: &'a [VariedCell],
+    /// How far the matrices may be off, if bounds are wanted.
+    pub doubt: Option<&'a MatrixDoubt>,
 }
 
 /// How a body moves in a wave: δp₀ and δP [1/m] in real and imaginary parts, so scaled that Σ |ξ|² = 1 along
@@ -173,7 +200,7 @@ impl LatticeWaves {
         let bodies = sought.unwrap_or_else(|| equilibrium::rest_at(&mut frozen, &numbers));
         let (force, stress) = carried(&mut frozen, &lattice, &numbers).map_err(NoRest::from)?;
         let rest = CellRest { cell: lattice.vectors().to_vec(), force, stress, bodies, unrest };
-        Ok(Self { frozen, coordinates, system, lattice, rest })
+        Ok(Self { frozen, coordinates, system, lattice, rest, is_relaxed: relaxes })
     }
 
     /// Where the cell is looked at.
@@ -249,6 +276,14 @@ impl LatticeWaves {
     /// # Errors
     /// [`NoBands`].
     pub fn row(&self, point: &PathPoint, shapes: bool) -> Result<BandRow, NoBands> {
+        self.row_of(point, RowRequest { shapes, ..RowRequest::default() })
+    }
+
+    /// The same with what is asked for.
+    ///
+    /// # Errors
+    /// [`NoBands`].
+    pub fn row_of(&self, point: &PathPoint, request: RowRequest<'_>) -> Result<BandRow, NoBands> {
         if Interruption::due().is_some() {
             return Err(NoBands::Interrupted);
         }
@@ -256,14 +291,18 @@ impl LatticeWaves {
         let along = self.wave_vector(&point.along);
         // Without a direction any that is no symmetry tells waves of one frequency apart.
         let along = along.try_normalize(0.0).unwrap_or_else(|| self.wave_vector(&[0.83, 0.47, 0.29]).normalize());
-        let Waves { branches, roots } = self.system.waves(&kappa, &along).map_err(|_| NoBands::Roots(kappa))?;
+        let changes = request.varied.iter().map(VariedCell::matrices).collect();
+        let found = self.system.waves(&kappa, &along, &Asked { changes, doubt: request.doubt });
+        let Waves { branches, roots } = found.map_err(|_| NoBands::Roots(kappa))?;
         let branches = branches.iter().map(|wave| Branch {
             omega: wave.root.im.abs(),
             // Zero has no sign.
             decay: 0.0 - wave.root.re,
             velocity: wave.velocity,
             participation: self.system.participation(&wave.shape),
-            shapes: if shapes { self.shapes(&wave.shape) } else { Vec::new() },
+            shapes: if request.shapes { self.shapes(&wave.shape) } else { Vec::new() },
+            changes: wave.changes.clone(),
+            bound: wave.bound,
         });
         Ok(BandRow { kappa, k: self.wave_vector(&kappa), branches: branches.collect(), roots })
     }

@@ -6,8 +6,9 @@
 //! are more than translations, those with the greatest share of translation are meant.
 
 use super::bloch::{BlochSystem, C64};
-use super::eigenspaces::hermitian_eigen;
-use super::waves::{NEUTRAL, NoRoots, hermitian};
+use super::eigenspaces::{hermitian, hermitian_eigen};
+use super::wave::NoRoots;
+use super::waves::NEUTRAL;
 use super::{LatticeWaves, NoBands};
 use gyration::tensor::Vec3;
 use nalgebra::{DMatrix, DVector};

@@ -4,8 +4,7 @@
 //! neighbours in shrinking steps goes down from there. At κ = 0 translations of everything are left out; what long
 //! waves do instead is told by ω²/k² (`sound`), of which the least over all directions is sought in the same way.
 
-use super::eigenspaces::hermitian_eigen;
-use super::waves::hermitian;
+use super::eigenspaces::{hermitian, hermitian_eigen};
 use super::{LatticeWaves, NoBands};
 use gyration::tensor::Vec3;
 use gyration_threads::Interruption;

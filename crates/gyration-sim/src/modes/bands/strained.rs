@@ -112,6 +112,8 @@ pub struct StrainedCell {
     /// The vectors as they are written.
     written: Lattice,
     gradient: Mat3,
+    /// By how much F̄ may be off where the vectors have sought their rest; 0 where they are as written.
+    unsettled: f64,
 }
 
 /// A value of a path.
@@ -142,7 +144,7 @@ impl StrainedCell {
     /// A cell as it is written.
     pub fn new(model: &Model, state: &State) -> Self {
         let (model, state) = (model.clone(), State { low: Vec::new(), ..state.clone() });
-        Self { written: Lattice::clone(&model.lattice), model, state, gradient: Mat3::identity() }
+        Self { written: Lattice::clone(&model.lattice), model, state, gradient: Mat3::identity(), unsettled: 0.0 }
     }
 
     /// The cell at another deformation: its bodies move along, then seek their rest.
@@ -167,7 +169,8 @@ impl StrainedCell {
             let start = model.slots(body).block().start;
             state.bodies[start..start + rest.block().len()].copy_from_slice(rest.block());
         }
-        Ok((Self { model, state, written: self.written.clone(), gradient: *gradient }, waves))
+        let (written, unsettled) = (self.written.clone(), self.unsettled);
+        Ok((Self { model, state, written, gradient: *gradient, unsettled }, waves))
     }
 
     /// The vectors as they are written.
@@ -175,10 +178,15 @@ impl StrainedCell {
         &self.written
     }
 
-    /// The cell at a deformation, from there on as if it were written so.
-    pub(super) fn as_written(&self, gradient: &Mat3) -> Result<Self, NoBands> {
+    /// The cell at a deformation, from there on as if it were written so, but for what F̄ may be off.
+    pub(super) fn as_written(&self, gradient: &Mat3, unsettled: f64) -> Result<Self, NoBands> {
         let there = self.at(gradient)?.0;
-        Ok(Self { written: Lattice::clone(&there.model.lattice), gradient: Mat3::identity(), ..there })
+        Ok(Self { written: Lattice::clone(&there.model.lattice), gradient: Mat3::identity(), unsettled, ..there })
+    }
+
+    /// By how much F̄ may be off.
+    pub(super) fn unsettled(&self) -> f64 {
+        self.unsettled
     }
 
     /// What becomes of it along a path, and where it first becomes unstable.

@@ -18,8 +18,8 @@ pub use moduli::Tensor;
 pub use reach::{Reach, frequency_error};
 
 use super::bloch::C64;
-use super::eigenspaces::hermitian_eigen;
-use super::waves::{NEUTRAL, hermitian};
+use super::eigenspaces::{hermitian, hermitian_eigen};
+use super::waves::NEUTRAL;
 use super::{LatticeWaves, NoBands};
 use condensed::Condensed;
 use coordinates::Motion;

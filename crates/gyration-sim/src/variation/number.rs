@@ -3,14 +3,25 @@
 //! Numbers are read from the resolved form, so that a default counts as written. They are changed by an override, as
 //! `--set` does; an item of a vector or a matrix brings its whole array along, which need not stand in the file.
 
-use super::SensitivityError;
 use crate::resistance::complete;
-use gyration_scene::Scene;
+use gyration_scene::{Scene, SceneErrors};
 use serde_json::Value;
+
+/// A key that names no number.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{key}: {message}; {help}")]
+pub struct UnknownNumber {
+    /// The key.
+    pub key: String,
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub help: String,
+}
 
 /// A number of a scene.
 #[derive(Debug, Clone)]
-pub(super) struct SceneNumber {
+pub(crate) struct SceneNumber {
     /// Its dotted key.
     pub key: String,
     /// What it is, in SI units.
@@ -23,6 +34,8 @@ pub(super) struct SceneNumber {
     inside: Vec<usize>,
     /// Whether it can be set in the text as it was written, or in the resolved form only.
     in_resolved: bool,
+    /// How a neighbouring scene is made ready.
+    completed: fn(Scene) -> Result<Scene, SceneErrors>,
 }
 
 /// Tables whose numbers say how something is computed or recorded, not what it is.
@@ -34,10 +47,26 @@ impl SceneNumber {
     /// Finds a number by its key.
     ///
     /// # Errors
-    /// `SensitivityError::Key` if there is no number at this key.
-    pub fn find(scene: &Scene, key: &str) -> Result<Self, SensitivityError> {
+    /// [`UnknownNumber`] if there is no number at this key.
+    pub fn find(scene: &Scene, key: &str) -> Result<Self, UnknownNumber> {
+        Self::found(scene, key, complete)
+    }
+
+    /// The same, of scenes without the waves with which a run starts.
+    ///
+    /// # Errors
+    /// [`UnknownNumber`] if there is no number at this key.
+    pub fn find_at_rest(scene: &Scene, key: &str) -> Result<Self, UnknownNumber> {
+        Self::found(scene, key, |scene| complete(scene.without_waves()))
+    }
+
+    fn found(
+        scene: &Scene,
+        key: &str,
+        completed: fn(Scene) -> Result<Scene, SceneErrors>,
+    ) -> Result<Self, UnknownNumber> {
         let numbers = scene.numbers();
-        let fault = |message: String, help: String| SensitivityError::Key { key: key.to_owned(), message, help };
+        let fault = |message: String, help: String| UnknownNumber { key: key.to_owned(), message, help };
         let mut at = &numbers;
         let mut array: Option<(String, Value)> = None;
         let (mut walked, mut inside): (Vec<&str>, Vec<usize>) = (Vec::new(), Vec::new());
@@ -62,7 +91,7 @@ impl SceneNumber {
             _ => fault("what stands at this key is no number".into(), "give the key of a number, as to --set".into()),
         })?;
         let (set_key, set_value) = array.unwrap_or_else(|| (key.to_owned(), at.clone()));
-        let mut this = Self { key: key.to_owned(), value, set_key, set_value, inside, in_resolved: false };
+        let mut this = Self { key: key.to_owned(), value, set_key, set_value, inside, in_resolved: false, completed };
         this.in_resolved = this.scene_at(scene, value).is_err();
         Ok(this)
     }
@@ -106,7 +135,7 @@ impl SceneNumber {
             let all = [scene.overrides(), vec![setting]].concat();
             Scene::parse("scene", scene.text(), scene.base(), &all)
         };
-        let found = found.and_then(complete);
+        let found = found.and_then(self.completed);
         found.map_err(|errors| errors.as_slice().first().map_or_else(String::new, |error| error.message.clone()))
     }
 }

@@ -1,4 +1,4 @@
-//! How the start, the rates and the rows change with a number of the scene, at a fixed state.
+//! Changes of what a scene tells with one of its numbers: start, rates and rows at a fixed state, or matrices at rest.
 //!
 //!   ∂f/∂p ≈ (8 (f₁ − f₋₁) − (f₂ − f₋₂))/(12 h),   f_k = f(t, y; p + k h)
 //!
@@ -7,14 +7,20 @@
 //! difference of h and 2h, it is reduced for good; where the rates jump by a little, it is enlarged. Where one side is
 //! refused, as for a β of zero, all points stand on the other.
 
-use super::difference::Difference;
-use super::levels::VariationSteps;
-use super::number::SceneNumber;
+mod difference;
+mod levels;
+mod number;
+
+pub(crate) use number::SceneNumber;
+pub use number::UnknownNumber;
+
+use difference::Difference;
 use gyration::Inadmissible;
 use gyration::dynamics::{Workspace, rates};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_scene::Scene;
+use levels::VariationSteps;
 
 /// Where smaller steps do not agree with themselves to this part, larger ones are tried.
 const ROUGH: f64 = 1e-4;
@@ -26,9 +32,12 @@ const COMPARISONS: u32 = 16;
 const BEND: f64 = 1e-5;
 /// What changes its scale by less than this in a second, for a change by the whole number, counts as no effect.
 const NOTHING: f64 = 1e-6;
+/// Two estimates of a derivative may differ by this part of the largest.
+pub(crate) const NOT_SMOOTH: f64 = 1e-3;
+
 /// What the number's change does.
 #[derive(Debug)]
-pub(super) struct SceneVariation {
+pub(crate) struct SceneVariation {
     levels: VariationSteps,
     starts_only: bool,
     workspace: Workspace,
@@ -40,13 +49,15 @@ pub(super) struct SceneVariation {
     doubt: f64,
     /// What rounding may add to the last derivative, in the scales.
     noise: f64,
+    /// By how much two estimates of second order of the last derivative differ, in the scales.
+    bend: f64,
     /// What is evaluated at each point, one after the other.
     values: Vec<Vec<f64>>,
 }
 
 /// A derivative that could not be had.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum NoDerivative {
+pub(crate) enum NoDerivative {
     /// In words.
     Reason(String),
     /// A neighbouring model does not know the state.
@@ -76,6 +87,7 @@ impl SceneVariation {
             largest: 0.0,
             doubt: 0.0,
             noise: 0.0,
+            bend: 0.0,
             values: Vec::new(),
         })
     }
@@ -107,8 +119,36 @@ impl SceneVariation {
         self.differentiate(scales, |scene, workspace, out| {
             out.resize(bodies.len() + works, 0.0);
             let (slopes, powers) = out.split_at_mut(bodies.len());
-            rates(&scene.built().model, workspace, time, bodies.into(), slopes, powers)
+            Ok(rates(&scene.built().model, workspace, time, bodies.into(), slopes, powers)?)
         })
+    }
+
+    /// The derivative of what is told of the neighbouring scenes, in numbers of these scales, with an estimate of its
+    /// error in the same scales.
+    ///
+    /// A hundred roundings of the largest number count as those of what is told.
+    ///
+    /// # Errors
+    /// Why there is none, in words.
+    pub fn of_told(
+        &mut self,
+        scales: &[f64],
+        mut tell: impl FnMut(&Scene) -> Result<Vec<f64>, String>,
+    ) -> Result<(Vec<f64>, f64), String> {
+        let found = self.differentiate(scales, |scene, _, out| {
+            *out = tell(scene).map_err(NoDerivative::Reason)?;
+            Ok(())
+        });
+        let derivative = match found {
+            Ok(derivative) => derivative,
+            Err(NoDerivative::Reason(reason)) => return Err(reason),
+            Err(NoDerivative::Inadmissible(left)) => return Err(left.to_string()),
+        };
+        if self.doubt > NOT_SMOOTH {
+            return Err("what it changes is not smooth in it".into());
+        }
+        let measure = self.measure();
+        Ok((derivative, self.bend * self.bend / measure + self.noise + self.doubt * measure))
     }
 
     /// ∂r/∂p of what a model says of a state; `row` fills it.
@@ -117,7 +157,7 @@ impl SceneVariation {
         state: &State,
         mut row: impl FnMut(&Model, &mut Workspace, &State, &mut Vec<f64>) -> Result<(), Inadmissible>,
     ) -> Result<Vec<f64>, NoDerivative> {
-        self.differentiate(&[], |scene, workspace, out| row(&scene.built().model, workspace, state, out))
+        self.differentiate(&[], |scene, workspace, out| Ok(row(&scene.built().model, workspace, state, out)?))
     }
 
     /// The derivative of a list of numbers, with a step at which it is smooth.
@@ -127,7 +167,7 @@ impl SceneVariation {
     fn differentiate(
         &mut self,
         scales: &[f64],
-        mut evaluate: impl FnMut(&Scene, &mut Workspace, &mut Vec<f64>) -> Result<(), Inadmissible>,
+        mut evaluate: impl FnMut(&Scene, &mut Workspace, &mut Vec<f64>) -> Result<(), NoDerivative>,
     ) -> Result<Vec<f64>, NoDerivative> {
         let mut coarse: Option<Difference> = None;
         loop {
@@ -154,7 +194,7 @@ impl SceneVariation {
                         self.doubt = self.doubt.max(coarse.bend / self.largest);
                         Ok(coarse.derivative)
                     }
-                    (None, Some(left)) => Err(NoDerivative::Inadmissible(left)),
+                    (None, Some(left)) => Err(left),
                     (None, None) => Err(NoDerivative::Reason(reason)),
                 };
             }
@@ -167,7 +207,7 @@ impl SceneVariation {
         &mut self,
         lean: f64,
         scales: &[f64],
-        evaluate: &mut impl FnMut(&Scene, &mut Workspace, &mut Vec<f64>) -> Result<(), Inadmissible>,
+        evaluate: &mut impl FnMut(&Scene, &mut Workspace, &mut Vec<f64>) -> Result<(), NoDerivative>,
     ) {
         if self.comparisons == 0 || lean <= LEAN * self.measure() || self.finer().is_err() {
             return;
@@ -194,7 +234,7 @@ impl SceneVariation {
         &mut self,
         mut found: Difference,
         scales: &[f64],
-        evaluate: &mut impl FnMut(&Scene, &mut Workspace, &mut Vec<f64>) -> Result<(), Inadmissible>,
+        evaluate: &mut impl FnMut(&Scene, &mut Workspace, &mut Vec<f64>) -> Result<(), NoDerivative>,
     ) -> Vec<f64> {
         while found.bend > ROUGH * self.measure() && self.levels.coarser() {
             match self.evaluate(scales, evaluate) {
@@ -214,8 +254,8 @@ impl SceneVariation {
     fn evaluate(
         &mut self,
         scales: &[f64],
-        evaluate: &mut impl FnMut(&Scene, &mut Workspace, &mut Vec<f64>) -> Result<(), Inadmissible>,
-    ) -> Result<Difference, Inadmissible> {
+        evaluate: &mut impl FnMut(&Scene, &mut Workspace, &mut Vec<f64>) -> Result<(), NoDerivative>,
+    ) -> Result<Difference, NoDerivative> {
         let level = self.levels.current();
         self.values.resize_with(level.scenes.len(), Vec::new);
         for (scene, values) in level.scenes.iter().zip(&mut self.values) {
@@ -223,7 +263,7 @@ impl SceneVariation {
             evaluate(scene, &mut self.workspace, values)?;
         }
         let found = Difference::of(level.step, level.stencil, &self.values, scales);
-        self.noise = found.noise;
+        (self.noise, self.bend) = (found.noise, found.bend);
         Ok(found)
     }
 
