@@ -58,18 +58,10 @@ pub fn bands<'py>(
     let derivatives = derivatives.unwrap_or_default();
     let besides = [("shapes", shapes), ("derivatives", !derivatives.is_empty()), ("bound", bound)];
     let refuse_besides = |name, given| refuse_together(name, given, &besides);
-    refuse_together(
-        "complex",
-        complex,
-        &[("mesh", mesh.is_some()), ("along", along.is_some())],
-    )?;
+    refuse_together("complex", complex, &[("mesh", mesh.is_some()), ("along", along.is_some())])?;
     refuse_besides("complex", complex)?;
     refuse_besides("along", along.is_some())?;
-    refuse_together(
-        "along",
-        along.is_some(),
-        &[("path", path.is_some()), ("strain", strain.is_some())],
-    )?;
+    refuse_together("along", along.is_some(), &[("path", path.is_some()), ("strain", strain.is_some())])?;
     refuse_together("omega", omega.is_some(), &[("complex=False", !complex)])?;
     let scene = Scene::ready(scene)?;
     let mesh = mesh.map(|mesh| counted("mesh", mesh)).transpose()?;

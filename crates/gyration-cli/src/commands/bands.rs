@@ -14,9 +14,7 @@ use gyration_record::write_file;
 use gyration_scene::Scene;
 use gyration_sim::format::{significant, vector};
 use gyration_sim::modes::bands::StrainPath;
-use gyration_sim::survey::{
-    BandOptions, BandSurvey, ComplexBandOptions, ComplexBandSurvey, StrainSurvey, unit_cell,
-};
+use gyration_sim::survey::{BandOptions, BandSurvey, ComplexBandOptions, ComplexBandSurvey, StrainSurvey, unit_cell};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 

@@ -7,6 +7,7 @@
 use crate::adapter::ModelSystem;
 use crate::sensitivity::SCALES;
 use gyration::Inadmissible;
+use gyration::body::Slots;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::System as _;
@@ -106,6 +107,17 @@ pub(super) fn scales(model: &Model, period: f64) -> DVector<f64> {
         }
     }
     scales
+}
+
+/// For each number the largest among those of its kind: places, attitudes, velocities, rates, what else a body keeps.
+pub(super) fn largest_of_kind(model: &Model, numbers: &DVector<f64>) -> DVector<f64> {
+    let mut largest = numbers.clone();
+    for kind in [Slots::position, Slots::attitude, Slots::velocity, Slots::rate, Slots::extra] {
+        let places = || (0..model.bodies.len()).flat_map(|index| kind(model.slots(index)));
+        let most = places().map(|place| numbers[place]).fold(0.0, f64::max);
+        places().for_each(|place| largest[place] = most);
+    }
+    largest
 }
 
 /// The numbers that never change: the turns of a mass point.

@@ -14,7 +14,7 @@ mod tests;
 use crate::adapter::Tolerance;
 use crate::plan::RunPlan;
 use crate::sensitivity::{Flow, NoFlow, each_state};
-use chart::{Chart, align, change, scales};
+use chart::{Chart, align, change, largest_of_kind, scales};
 use gyration::Inadmissible;
 use gyration::balance::{energies, kinetic_energy};
 use gyration::dynamics::Workspace;
@@ -178,9 +178,10 @@ impl Orbit {
             most_kinetic = most_kinetic.max(kinetic);
         })
         .map_err(|error| NoOrbit::Flow { period: plan.end, reason: error.to_string() })?;
-        // Each number by how far it goes.
+        // Each number by how far those of its kind go: what hardly moves decides nothing.
         let least = LEAST_SPAN * scales(model, plan.end);
         let spans = changes.iter().fold(least, |spans, change| spans.sup(&change.abs()));
+        let spans = largest_of_kind(model, &spans);
         let size = |change: &DVector<f64>| change.component_div(&spans).amax();
         let away: Vec<(f64, f64)> = times.iter().copied().zip(changes.iter().map(size)).collect();
         let most = away.iter().map(|(_, size)| *size).fold(0.0, f64::max);
