@@ -1,6 +1,6 @@
 //! Rest states and small motions about them, against closed forms.
 
-use gyration::affine::{AffineBody, Viscosity};
+use gyration::affine::{AffineBody, Kinetic, Viscosity};
 use gyration::body::{Affine, Body, BodyKind, Pin, RigidInertia, Solid};
 use gyration::contact::{AreaMeasure, Contact, ContactLaw, Damping, Friction, LawSet, Repulsion};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
@@ -405,10 +405,14 @@ fn what_has_no_rest_state_is_said_in_words() {
     if let BodyKind::Affine(affine) = &mut body.kind {
         affine.interior.material = None;
     }
-    let flattening = model.with_bodies([body]);
+    let flattening = model.clone().with_bodies([body.clone()]);
     let refusal = rest(&flattening, &state, 0).unwrap_err();
     println!("{refusal}");
     assert!(matches!(refusal, NoRest::Deforms { .. }));
+    if let BodyKind::Affine(affine) = &mut body.kind {
+        affine.interior.kinetic = Some(Kinetic::Comoving);
+    }
+    assert_eq!(rest(&model.with_bodies([body]), &state, 0), Err(NoRest::NoConstantMass));
 }
 
 #[test]

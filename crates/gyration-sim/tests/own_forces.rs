@@ -96,4 +96,8 @@ fn the_survey_tells_own_forces_and_the_error_of_a_rule() {
     assert!(told("body_force = [\"-0.1*x\", \"0\", \"2*sin(3*t)\"]").contains("body force, integrated exactly"));
     assert!(told("body_force = [\"sin(40*x)\", 0, 0]").contains("wrong by"));
     assert!(told("potential = \"x*t\"").contains("potential that changes in time"));
+    assert!(told("affine = { kinetic = \"comoving\" }").contains("comoving kinetic energy"));
+    let heavy = ball("affine = {}").replace("[0, 0, 0] }", "[0, 0, 0], self_gravity = { constant = 1 } }");
+    let scene = parsed(&heavy, &[]);
+    assert!(Survey::of(&scene).unwrap().text(&scene).unwrap().contains("gravity of its own"));
 }
