@@ -45,6 +45,7 @@ mod case_soft_tumbling_box;
 mod case_solid_supports;
 mod case_strong_lattices;
 mod case_taut_pairs;
+mod case_topology;
 mod case_tumbling_box;
 mod case_waves;
 mod gallery_adhere;

@@ -224,3 +224,22 @@ fn what_is_no_number_has_no_derivative() {
     refused("spring.0.stiffness spring.0.stiffness", &["stands twice"]);
     sandbox.refused(2, &["bands", "string.toml", "--complex", "--derivatives", "spring.0.stiffness"]);
 }
+
+#[test]
+fn phases_are_told_and_those_of_losses_are_not() {
+    let sandbox = sandbox();
+    sandbox.write("turned.toml", &DIATOMIC.replacen("stiffness = 3", "stiffness = 2", 1));
+    let found = json(&sandbox, &["turned.toml", "--topology"]);
+    assert_eq!(found["directions"], serde_json::json!([1]));
+    assert_eq!(found["zak"][0].as_array().unwrap().len(), 6);
+    assert_eq!(found["chern"], serde_json::json!([]));
+    let said = sandbox.done(&["bands", "turned.toml", "--topology", "--mesh", "12"]);
+    assert!(said.stdout.contains("Zak phases by branch [π]\n  along κ1"), "{}", said.stdout);
+    sandbox.write("lossy.toml", &STRING.replace("rest_length = 0.8", "rest_length = 0.8\ndamping = 0.1"));
+    let said = sandbox.refused(2, &["bands", "lossy.toml", "--topology"]);
+    assert!(said.stderr.contains("neither decay nor grow"), "{}", said.stderr);
+    sandbox.write("squeezed.toml", &STRING.replace("rest_length = 0.8", "rest_length = 1.2"));
+    let said = sandbox.refused(2, &["bands", "squeezed.toml", "--topology"]);
+    assert!(said.stderr.contains("one grows"), "{}", said.stderr);
+    sandbox.refused(2, &["bands", "turned.toml", "--topology", "--shapes"]);
+}

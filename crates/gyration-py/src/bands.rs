@@ -9,7 +9,7 @@ use gyration_sim::modes::PARTS;
 use gyration_sim::modes::bands::{BandShape, StrainPath, Zone};
 use gyration_sim::survey::{
     BandOptions, BandSurvey, CellRestSurvey, ComplexBandOptions, ComplexBandSurvey, InstabilitySurvey, Named,
-    StrainSurvey,
+    StrainSurvey, TopologySurvey, USUAL_MESH,
 };
 use numpy::Complex64;
 use pyo3::prelude::*;
@@ -27,7 +27,8 @@ use serde_json::json;
 ///
 /// ``derivatives``, keys of numbers of the scene as to ``sensitivities``, adds ``derivatives``, a dictionary of ∂ω (r,
 /// b) by key, nan where ω has no derivative. ``bound`` adds ``bound`` [rad/s] (r, b), by how much ω may be off, nan
-/// where that is not known.
+/// where that is not known. ``topology`` gives Zak phases and Chern numbers of a mesh of ``mesh`` (24) wave vectors
+/// instead: ``zak`` (directions, b), ``chern``, ``gaps``, ``directions``, ``warnings``.
 ///
 /// ``complex`` gives all κ along ``direction`` (1, 2, 3) at ``points`` frequencies between the two of ``omega``
 /// [rad/s]: ``omega`` (n), and ``kappa``, a list of n complex arrays.
@@ -37,7 +38,7 @@ use serde_json::json;
 /// lattice first becomes unstable, or None.
 #[pyfunction]
 #[pyo3(signature = (scene, path=None, *, points=101, mesh=None, shapes=false, strain=None, complex=false, direction=1,
-                    omega=None, along=None, steps=21, derivatives=None, bound=false))]
+                    omega=None, along=None, steps=21, derivatives=None, bound=false, topology=false))]
 #[expect(clippy::too_many_arguments, reason = "the arguments of the command")]
 pub fn bands<'py>(
     py: Python<'py>,
@@ -54,14 +55,24 @@ pub fn bands<'py>(
     steps: i64,
     derivatives: Option<Vec<String>>,
     bound: bool,
+    topology: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let derivatives = derivatives.unwrap_or_default();
     let besides = [("shapes", shapes), ("derivatives", !derivatives.is_empty()), ("bound", bound)];
     let refuse_besides = |name, given| refuse_together(name, given, &besides);
-    refuse_together("complex", complex, &[("mesh", mesh.is_some()), ("along", along.is_some())])?;
+    refuse_together(
+        "complex",
+        complex,
+        &[("mesh", mesh.is_some()), ("along", along.is_some()), ("topology", topology)],
+    )?;
     refuse_besides("complex", complex)?;
+    refuse_besides("topology", topology)?;
     refuse_besides("along", along.is_some())?;
-    refuse_together("along", along.is_some(), &[("path", path.is_some()), ("strain", strain.is_some())])?;
+    refuse_together(
+        "along",
+        along.is_some(),
+        &[("path", path.is_some()), ("topology", topology), ("strain", strain.is_some())],
+    )?;
     refuse_together("omega", omega.is_some(), &[("complex=False", !complex)])?;
     let scene = Scene::ready(scene)?;
     let mesh = mesh.map(|mesh| counted("mesh", mesh)).transpose()?;
@@ -72,6 +83,11 @@ pub fn bands<'py>(
     }
     let strain =
         strain.map(StrainPath::parse_value).transpose().map_err(|error| errors::arguments(error.to_string()))?;
+    if topology {
+        let mesh = mesh.unwrap_or(USUAL_MESH);
+        let found = interruptibly(py, || TopologySurvey::of(&scene, path, mesh, strain.as_ref()))?;
+        return phases(py, &found.map_err(errors::arguments)?);
+    }
     let options = BandOptions { points: counted("points", points)?, mesh, shapes, strain, derivatives, bound };
     if complex {
         let wrong = || errors::arguments(format!("{direction} is no direction\n  fix: give 1, 2 or 3"));
@@ -196,6 +212,19 @@ fn rest<'py>(py: Python<'py>, found: &CellRestSurvey) -> PyResult<Bound<'py, PyD
         bodies.set_item(name, body)?;
     }
     told.set_item("bodies", bodies)?;
+    Ok(told)
+}
+
+fn phases<'py>(py: Python<'py>, found: &TopologySurvey) -> PyResult<Bound<'py, PyDict>> {
+    let told = PyDict::new(py);
+    let shape = [found.zak.len(), found.zak.first().map_or(0, Vec::len)];
+    let zak = found.zak.iter().flatten().map(|phase| phase.unwrap_or(f64::NAN)).collect();
+    told.set_item("zak", array(py, zak, &shape)?)?;
+    told.set_item("chern", to_python(py, &json!(found.chern))?)?;
+    told.set_item("gaps", to_python(py, &json!(found.gaps))?)?;
+    told.set_item("directions", &found.directions)?;
+    told.set_item("warnings", &found.warnings)?;
+    found.warnings.iter().try_for_each(|warning| errors::warn(py, Some(warning.clone())))?;
     Ok(told)
 }
 

@@ -80,7 +80,7 @@ def test_complex_bands_and_strains_are_the_numbers_of_the_program(tmp_path):
     np.testing.assert_array_equal(found["instability"]["F"], known["instability"]["F"])
 
 
-def test_derivatives_and_bounds_are_the_numbers_of_the_program(tmp_path):
+def test_derivatives_bounds_and_phases_are_the_numbers_of_the_program(tmp_path):
     keys, path = ["spring.0.stiffness", "body.b.shape.points.0.mass"], "0,0,0 0.5,0,0"
     found = gyration.bands(CHAIN, path, points=5, derivatives=keys, bound=True)
     known = told(tmp_path, "bands", "--path", path, "--points", "5", "--derivatives", " ".join(keys), "--bound")
@@ -88,6 +88,9 @@ def test_derivatives_and_bounds_are_the_numbers_of_the_program(tmp_path):
         np.testing.assert_array_equal(found["derivatives"][key], np.asarray(known["derivatives"][key], float))
     np.testing.assert_array_equal(found["bound"], known["bound"])
     assert set(found) == set(known) and np.isnan(found["derivatives"][keys[0]][0, 0])
+    found, known = gyration.bands(CHAIN, topology=True, mesh=12), told(tmp_path, "bands", "--topology", "--mesh", "12")
+    np.testing.assert_array_equal(found["zak"], np.asarray(known["zak"], float))
+    assert found["chern"] == known["chern"] == [] and set(found) == set(known)
 
 
 def test_what_cannot_be_asked_of_bands_is_refused_and_instability_is_warned_of(ball):
@@ -100,7 +103,7 @@ def test_what_cannot_be_asked_of_bands_is_refused_and_instability_is_warned_of(b
         ({"omega": (0, 1)}, "do not go together"),
         ({"complex": True, "omega": (0, float("nan"))}, "no range"),
         ({"complex": True, "direction": 2}, "not periodic"),
-        ({"complex": True, "bound": True}, "do not go together"),
+        ({"topology": True, "bound": True}, "do not go together"),
         ({"derivatives": ["spring.0.stiffnes"]}, "stiffnes"),
         ({"strain": "xx=-2"}, "F̄"),
     ]:

@@ -34,6 +34,10 @@ pub struct Bands {
     /// Add by how much ω may be off
     #[arg(long, conflicts_with_all = ["complex", "along"])]
     pub bound: bool,
+    /// Zak phases and Chern numbers instead, of a mesh of --mesh [default: 24] wave vectors along each direction; for
+    /// Zak phases the other κ are those of the path's first point
+    #[arg(long, conflicts_with_all = ["complex", "along", "shapes", "derivatives", "bound", "plot", "yaml"])]
+    pub topology: bool,
     /// All complex κ of frequencies instead, of waves that run and of waves that die out: e^(−2π|Im κ|) a cell
     #[arg(long, conflicts_with_all = ["mesh", "shapes", "along"])]
     pub complex: bool,

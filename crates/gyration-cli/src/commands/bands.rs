@@ -14,11 +14,13 @@ use gyration_record::write_file;
 use gyration_scene::Scene;
 use gyration_sim::format::{significant, vector};
 use gyration_sim::modes::bands::StrainPath;
-use gyration_sim::survey::{BandOptions, BandSurvey, ComplexBandOptions, ComplexBandSurvey, StrainSurvey, unit_cell};
+use gyration_sim::survey::{
+    BandOptions, BandSurvey, ComplexBandOptions, ComplexBandSurvey, StrainSurvey, TopologySurvey, USUAL_MESH, unit_cell,
+};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// Prints the bands of a lattice along a path, all wave vectors of frequencies, or what becomes of it under
+/// Prints the bands of a lattice along a path, all wave vectors of frequencies, its phases, or what becomes of it under
 /// strain.
 pub fn execute(arguments: &Bands) -> Result<u8, CliError> {
     let name = &arguments.scene.scene;
@@ -39,6 +41,14 @@ pub fn execute(arguments: &Bands) -> Result<u8, CliError> {
         let found = waiting(looking, true, || ComplexBandSurvey::of(&scene, path, options, complex));
         let found = found.map_err(refused)?;
         let words = || special::complex(scene.title(), &found);
+        if arguments.json { json(&serde_json::json!(found)) } else { words() }
+    } else if arguments.topology {
+        let (path, strain) = (arguments.path.as_deref(), options(arguments)?.strain);
+        let mesh = arguments.mesh.map_or(USUAL_MESH, std::num::NonZero::get);
+        let found = waiting(looking, true, || TopologySurvey::of(&scene, path, mesh, strain.as_ref()));
+        let found = found.map_err(refused)?;
+        found.warnings.iter().for_each(|warning| output::say(&format!("warning: {warning}")));
+        let words = || special::topology(scene.title(), &found);
         if arguments.json { json(&serde_json::json!(found)) } else { words() }
     } else {
         let (path, options) = (arguments.path.as_deref(), options(arguments)?);

@@ -380,6 +380,7 @@ def bands(
     steps: int = 21,
     derivatives: Sequence[str] | None = None,
     bound: bool = False,
+    topology: bool = False,
 ) -> dict[str, Any]: ...
 def continuum(
     scene: _SceneLike,

@@ -32,6 +32,7 @@ mod springs;
 mod strained;
 mod supports;
 mod text;
+mod topology;
 mod varied_bands;
 mod words;
 
@@ -53,5 +54,6 @@ pub use softness::{ProposedLaws, SoftnessSurvey};
 pub use springs::SpringSurvey;
 pub use strained::{InstabilitySurvey, StrainRow, StrainSurvey};
 pub use supports::{PlaneSurvey, SupportSurvey};
+pub use topology::{ChernSurvey, TopologySurvey, USUAL_MESH};
 pub use varied_bands::{VariedBands, VariedFrequencies};
 pub use words::write_rest;

@@ -4,6 +4,13 @@ use gyration_sim::format::significant;
 use gyration_sim::survey::BandSurvey;
 use std::fmt::Write as _;
 
+/// What differences leave of zero.
+const ROUNDING: f64 = 1e-9;
+
+fn without_rounding(change: f64) -> f64 {
+    if change.abs() <= ROUNDING { 0.0 } else { change }
+}
+
 /// ∂ln ω/∂ln p of each branch by each number, at the vertices of the path.
 pub fn write_derivatives(text: &mut String, found: &BandSurvey) -> std::fmt::Result {
     let Some(derivatives) = &found.derivatives else { return Ok(()) };
@@ -15,7 +22,7 @@ pub fn write_derivatives(text: &mut String, found: &BandSurvey) -> std::fmt::Res
         writeln!(text, "\n∂ln ω/∂ln p by branch at{} κ = ({a:.4}, {b:.4}, {c:.4})", label.unwrap_or_default())?;
         for ((key, by_row), number) in keys.iter().zip(&derivatives.numbers) {
             let cell = |(change, omega): (&Option<f64>, &f64)| match change {
-                Some(change) => format!("{:>12}", significant(change * number / omega, 4)),
+                Some(change) => format!("{:>12}", significant(without_rounding(change * number / omega), 4)),
                 None => format!("{:>12}", "–"),
             };
             let cells: String = by_row[*row].iter().zip(&found.omega[*row]).map(cell).collect();

@@ -1,7 +1,8 @@
-//! What `gyration bands` prints of complex bands, and of a cell under strain.
+//! What `gyration bands` prints of complex bands, of phases, and of a cell under strain.
 
 use gyration_sim::format::{significant, vector};
-use gyration_sim::survey::{ComplexBandSurvey, StrainSurvey};
+use gyration_sim::survey::{ComplexBandSurvey, StrainSurvey, TopologySurvey};
+use std::f64::consts::PI;
 use std::fmt::Write as _;
 
 /// Wave vectors of a frequency that are printed at most.
@@ -23,6 +24,49 @@ pub fn complex(title: &str, found: &ComplexBandSurvey) -> String {
         let _ = writeln!(text, "{:>12}  {}{more}", significant(*omega, 6), cells.trim_end());
     }
     text
+}
+
+/// A line a direction with the Zak phase of each branch; then Chern numbers, and gaps with what crosses them.
+pub fn topology(title: &str, found: &TopologySurvey) -> String {
+    let mut text = format!("{title}\n\n");
+    let _ = write_phases(&mut text, found);
+    text
+}
+
+fn write_phases(text: &mut String, found: &TopologySurvey) -> std::fmt::Result {
+    writeln!(text, "Zak phases by branch [π]")?;
+    for (direction, phases) in found.directions.iter().zip(&found.zak) {
+        let cell = |phase: &Option<f64>| match phase {
+            // Zero has no sign.
+            Some(phase) => format!("{:>10.5}", (1e5 * phase / PI).round() / 1e5 + 0.0),
+            None => format!("{:>10}", "–"),
+        };
+        writeln!(text, "  along κ{}{}", direction, phases.iter().map(cell).collect::<String>())?;
+    }
+    if found.chern.is_empty() {
+        return Ok(());
+    }
+    writeln!(text, "\nChern numbers")?;
+    for group in found.chern.iter().map(|group| &group.0) {
+        let number = group.number.map_or("–".to_owned(), |number| number.to_string());
+        match group.branches[..] {
+            [first, .., last] => writeln!(text, "  branches {first} to {last}, which touch: {number}")?,
+            _ => writeln!(text, "  branch {}: {number}", group.branches[0])?,
+        }
+    }
+    writeln!(text)?;
+    if found.gaps.is_empty() {
+        return writeln!(text, "no gaps between branches");
+    }
+    for gap in &found.gaps {
+        let (from, to) = (significant(gap.from, 6), significant(gap.to, 6));
+        let edges = match gap.chern {
+            0 => "nothing must run along an edge".to_owned(),
+            number => format!("Chern numbers below add up to {number}: as many branches cross it on an edge"),
+        };
+        writeln!(text, "gap {from} … {to} rad/s above branch {}, {edges}", gap.below)?;
+    }
+    Ok(())
 }
 
 /// A line a value: s, stress, the least ω²; then what becomes unstable first.

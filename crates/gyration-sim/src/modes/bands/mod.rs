@@ -23,6 +23,8 @@ mod relations;
 mod sound;
 mod stability;
 mod strained;
+mod topology;
+mod touching;
 mod varied;
 mod wave;
 mod waves;
@@ -34,6 +36,7 @@ pub use path::{BandPath, MOST_POINTS, PathError, PathPoint};
 pub use sound::Sound;
 pub use stability::{LeastSquare, Stability, Unstable, ZoneMesh};
 pub use strained::{Instability, StrainError, StrainPath, StrainedCell, StrainedRow};
+pub use topology::{BranchChern, ChernGap, NoTopology, Topology};
 pub use varied::VariedCell;
 
 use super::frozen::{FrozenContraction, FrozenSystem};

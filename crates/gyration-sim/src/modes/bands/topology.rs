@@ -1,0 +1,298 @@
+//! What is left of the phases of undamped waves when κ goes round: Zak phases and Chern numbers.
+//!
+//!   ψ = (K^½ ξ, ξ̇),   i ∂ₜψ = [[0, iK^½], [−iK^½, −iC]] ψ,   ω > 0
+//!   Zak: −arg Π ⟨ψ_i|ψ_{i+1}⟩ round κ_a,     Chern: Σ −arg/2π of the plaquettes of a mesh, counterclockwise in k
+//!
+//! Without gyroscopic loads ψ is as good as ξ along coordinates of mass one. Phases are those of the cell, so that ψ is
+//! the same at κ and κ plus whole numbers, and a Zak phase depends on what counts as one cell. Branches that touch go
+//! together: a Zak phase is then one of the eigenvalues of the product of overlaps (the Wilson loop), a Chern number
+//! that of their determinants. Links whose overlaps are small are halved; of plaquettes the largest phase is told.
+//!
+//! Sources: J. Zak, *Phys. Rev. Lett.* 62 (1989) 2747; T. Fukui, Y. Hatsugai and H. Suzuki, *J. Phys. Soc. Jpn* 74
+//! (2005) 1674.
+
+use super::by_cell::C64;
+use super::eigenspaces::{eigenvalues, hermitian, hermitian_eigen};
+use super::touching::{Touching, touching};
+use super::waves::NEUTRAL;
+use super::{LatticeWaves, NoBands};
+use gyration_threads::Interruption;
+use nalgebra::{ComplexField, DMatrix};
+use serde::Serialize;
+use std::f64::consts::{PI, TAU};
+
+/// An overlap of neighbouring states below this is no neighbourhood: the link is halved.
+const OVERLAP: f64 = 0.7;
+/// Halvings of a link at most: κ then has no more digits.
+const HALVINGS: usize = 40;
+/// A phase this near to −π is π.
+const AT_PI: f64 = 1e-6;
+/// ω below this part of the largest is zero: ψ has no phase there.
+const STILL: f64 = 1e-7;
+
+/// The phases of all branches.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Topology {
+    /// The Zak phases [rad], in (−π, π]: a row a periodic direction, an entry a branch; ascending among branches that
+    /// touch on the way, none where ω vanishes and gyroscopic loads act.
+    pub zak: Vec<Vec<Option<f64>>>,
+    /// The Chern numbers of branches that touch no other, and of groups that do; none of a lattice that is not periodic
+    /// along two directions.
+    pub chern: Vec<BranchChern>,
+    /// The gaps of the mesh, ascending; none without Chern numbers.
+    pub gaps: Vec<ChernGap>,
+    /// The largest |phase| of a plaquette [rad]: beyond π it would count as another.
+    pub largest_phase: f64,
+}
+
+/// A Chern number.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BranchChern {
+    /// The branches, one or those that touch.
+    pub branches: Vec<usize>,
+    /// The number; none where ω vanishes and gyroscopic loads act.
+    pub number: Option<i64>,
+}
+
+/// Frequencies at which no wave of the bulk runs, and how many run along an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ChernGap {
+    /// Its lower edge [rad/s].
+    pub from: f64,
+    /// Its upper edge [rad/s].
+    pub to: f64,
+    /// The branch below it.
+    pub below: usize,
+    /// The sum of the Chern numbers below: branches that cross the gap on one edge, up less down.
+    pub chern: i64,
+}
+
+/// Why there are no phases.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NoTopology {
+    /// Something resists or drives.
+    #[error(
+        "phases are those of waves that neither decay nor grow: leave out damping, friction, fluid, contractions that \
+         move, and forces without a potential, as contacts of bodies that deform have them unless measure = \
+         \"deformed_area_potential\" (gyroscopic loads may stay)"
+    )]
+    Losses,
+    /// A wave grows.
+    #[error(
+        "phases are those of waves that neither decay nor grow, and at κ = ({:?}, {:?}, {:?}) one grows",
+        .0[0], .0[1], .0[2]
+    )]
+    Unstable([f64; 3]),
+    /// The roots were not found.
+    #[error(transparent)]
+    Bands(#[from] NoBands),
+}
+
+/// The states at a wave vector.
+#[derive(Debug, Clone)]
+pub(super) struct States {
+    /// ω, ascending [rad/s].
+    pub omega: Vec<f64>,
+    /// ψ of each, column by column.
+    vectors: DMatrix<C64>,
+}
+
+impl States {
+    /// Of some branches.
+    fn of(&self, group: &[usize]) -> DMatrix<C64> {
+        self.vectors.columns(group[0], group.len()).into_owned()
+    }
+}
+
+impl LatticeWaves {
+    /// The phases of all branches: Zak's along each periodic direction, the other κ as given, Chern's of a mesh of so
+    /// many wave vectors along each of two.
+    ///
+    /// # Errors
+    /// [`NoTopology`].
+    pub fn topology(&self, kappa: [f64; 3], mesh: usize, periodic: &[bool]) -> Result<Topology, NoTopology> {
+        if !self.system.is_lossless {
+            return Err(NoTopology::Losses);
+        }
+        let axes: Vec<usize> = (0..periodic.len()).filter(|a| periodic[*a]).collect();
+        let mesh = mesh.max(3);
+        let zak = axes.iter().map(|axis| self.zak(kappa, *axis, mesh)).collect::<Result<_, _>>()?;
+        let mut found = Topology { zak, chern: Vec::new(), gaps: Vec::new(), largest_phase: 0.0 };
+        if let [one, other] = axes[..] {
+            self.chern([one, other], mesh, &mut found)?;
+        }
+        Ok(found)
+    }
+
+    /// ψ at κ.
+    pub(super) fn states(&self, kappa: &[f64; 3]) -> Result<States, NoTopology> {
+        if Interruption::due().is_some() {
+            return Err(NoBands::Interrupted.into());
+        }
+        let roots = || NoBands::Roots(*kappa);
+        let matrices = self.system.wave(kappa);
+        let size = matrices.stiffness.nrows();
+        let eigen = hermitian_eigen(hermitian(matrices.stiffness)).ok_or_else(roots)?;
+        if eigen.eigenvalues.iter().any(|square| *square < -NEUTRAL * self.system.stiffest) {
+            return Err(NoTopology::Unstable(*kappa));
+        }
+        let frequencies = eigen.eigenvalues.map(|square| libm::sqrt(square.max(0.0)));
+        if self.system.is_conservative {
+            return Ok(sorted(frequencies.as_slice(), &eigen.eigenvectors, size));
+        }
+        let along = DMatrix::from_diagonal(&frequencies.map(|omega| C64::new(omega, 0.0)));
+        let root = &eigen.eigenvectors * along * eigen.eigenvectors.adjoint();
+        let i = C64::new(0.0, 1.0);
+        let mut whole = DMatrix::zeros(2 * size, 2 * size);
+        whole.view_mut((0, size), (size, size)).copy_from(&(&root * i));
+        whole.view_mut((size, 0), (size, size)).copy_from(&(root * -i));
+        whole.view_mut((size, size), (size, size)).copy_from(&(matrices.resistance * -i));
+        let eigen = hermitian_eigen(hermitian(whole)).ok_or_else(roots)?;
+        Ok(sorted(eigen.eigenvalues.as_slice(), &eigen.eigenvectors, size))
+    }
+
+    /// Whether ψ has no phase where ω vanishes.
+    fn is_still(&self, group: &[usize], touching: &Touching) -> bool {
+        !self.system.is_conservative && group[0] == 0 && touching.least <= STILL * touching.most
+    }
+
+    /// The Zak phase of each branch along a direction.
+    fn zak(&self, kappa: [f64; 3], axis: usize, mesh: usize) -> Result<Vec<Option<f64>>, NoTopology> {
+        let at = |part: f64| {
+            let mut there = kappa;
+            there[axis] = part;
+            there
+        };
+        let points = (0..mesh).map(|k| self.states(&at(k as f64 / mesh as f64))).collect::<Result<Vec<_>, _>>()?;
+        let omega: Vec<Vec<f64>> = points.iter().map(|states| states.omega.clone()).collect();
+        let touching = touching(&omega, [mesh, 1], |[part, _]| Ok::<_, NoTopology>(self.states(&at(part))?.omega))?;
+        let mut phases = Vec::new();
+        for group in &touching.groups {
+            if self.is_still(group, &touching) {
+                phases.extend(group.iter().map(|_| None));
+                continue;
+            }
+            let mut product = DMatrix::<C64>::identity(group.len(), group.len());
+            for k in 0..mesh {
+                let ends = [&points[k], &points[(k + 1) % mesh]];
+                let between = [k as f64, k as f64 + 1.0].map(|k| k / mesh as f64);
+                product *=
+                    self.link(ends.map(|states| states.of(group)), between, &|part| at(part), (group, HALVINGS))?;
+            }
+            let values = eigenvalues(&product).ok_or(NoBands::Roots(kappa))?;
+            let mut own: Vec<f64> = values.iter().map(|value| within(-value.argument())).collect();
+            own.sort_by(f64::total_cmp);
+            phases.extend(own.into_iter().map(Some));
+        }
+        Ok(phases)
+    }
+
+    /// The unitary part of the overlap of the states of a group between two places of a line, halved where it is small.
+    fn link(
+        &self,
+        [from, to]: [DMatrix<C64>; 2],
+        [start, end]: [f64; 2],
+        at: &impl Fn(f64) -> [f64; 3],
+        (group, halvings): (&[usize], usize),
+    ) -> Result<DMatrix<C64>, NoTopology> {
+        let roots = || NoBands::Roots(at(start));
+        let overlap = from.adjoint() * &to;
+        // The polar decomposition, of which the singular values are the least overlaps.
+        let squares = hermitian_eigen(hermitian(overlap.adjoint() * &overlap)).ok_or_else(roots)?;
+        let least = squares.eigenvalues.iter().copied().fold(f64::INFINITY, f64::min);
+        if least < OVERLAP * OVERLAP && halvings > 0 {
+            let middle = 0.5 * (start + end);
+            let states = self.states(&at(middle))?.of(group);
+            let first = self.link([from, states.clone()], [start, middle], at, (group, halvings - 1))?;
+            return Ok(first * self.link([states, to], [middle, end], at, (group, halvings - 1))?);
+        }
+        let inverse = squares.eigenvalues.map(|square| C64::new(1.0 / libm::sqrt(square.max(f64::MIN_POSITIVE)), 0.0));
+        let size = &squares.eigenvectors * DMatrix::from_diagonal(&inverse) * squares.eigenvectors.adjoint();
+        Ok(overlap * size)
+    }
+
+    /// The Chern numbers of the plane of two directions.
+    fn chern(&self, [one, other]: [usize; 2], mesh: usize, found: &mut Topology) -> Result<(), NoTopology> {
+        let at = |[first, second]: [f64; 2]| {
+            let mut kappa = [0.0; 3];
+            (kappa[one], kappa[other]) = (first, second);
+            kappa
+        };
+        let place = |k: usize| (k % mesh) as f64 / mesh as f64;
+        let line = |row: usize| -> Result<Vec<States>, NoTopology> {
+            (0..mesh).map(|k| self.states(&at([place(k), place(row)]))).collect()
+        };
+        let first = line(0)?;
+        let mut omega: Vec<Vec<f64>> = first.iter().map(|states| states.omega.clone()).collect();
+        for row in 1..mesh {
+            omega.extend(line(row)?.into_iter().map(|states| states.omega));
+        }
+        let touching = touching(&omega, [mesh, mesh], |part| Ok::<_, NoTopology>(self.states(&at(part))?.omega))?;
+        let mut turns = vec![0.0; touching.groups.len()];
+        let mut below = first.clone();
+        for row in 0..mesh {
+            let above = if row + 1 == mesh { first.clone() } else { line(row + 1)? };
+            for k in 0..mesh {
+                let next = (k + 1) % mesh;
+                let corners = [&below[k], &below[next], &above[next], &above[k]];
+                for (turn, group) in turns.iter_mut().zip(&touching.groups) {
+                    let phase = plaquette(&corners.map(|states| states.of(group)));
+                    found.largest_phase = found.largest_phase.max(phase.abs());
+                    *turn -= phase / TAU;
+                }
+            }
+            below = above;
+        }
+        let reciprocal = self.lattice.reciprocal();
+        let normal = reciprocal[one].cross(&reciprocal[other]);
+        let side = f64::signum(normal[normal.iamax()]);
+        let numbers = touching.groups.iter().zip(&turns).map(|(group, turns)| BranchChern {
+            branches: group.clone(),
+            number: (!self.is_still(group, &touching)).then(|| (side * turns).round() as i64),
+        });
+        found.chern = numbers.collect();
+        found.gaps = gaps(&omega, &found.chern);
+        Ok(())
+    }
+}
+
+/// The largest so many frequencies with their vectors, ascending.
+fn sorted(values: &[f64], vectors: &DMatrix<C64>, count: usize) -> States {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let order = &order[values.len() - count..];
+    let omega = order.iter().map(|k| values[*k].max(0.0)).collect();
+    States { omega, vectors: vectors.select_columns(order) }
+}
+
+/// arg ⟨1|2⟩⟨2|3⟩⟨3|4⟩⟨4|1⟩, of determinants.
+fn plaquette(corners: &[DMatrix<C64>; 4]) -> f64 {
+    let product = (0..4).fold(C64::new(1.0, 0.0), |product, k| {
+        let overlap = (corners[k].adjoint() * &corners[(k + 1) % 4]).determinant();
+        let size = overlap.modulus();
+        if size > 0.0 { product * overlap / size } else { product }
+    });
+    product.argument()
+}
+
+/// A phase in (−π, π].
+fn within(phase: f64) -> f64 {
+    if phase <= -PI + AT_PI { phase + TAU } else { phase + 0.0 }
+}
+
+/// Between which groups no frequency of the mesh lies.
+fn gaps(omega: &[Vec<f64>], chern: &[BranchChern]) -> Vec<ChernGap> {
+    let (mut sum, mut gaps) = (Some(0), Vec::new());
+    for pair in chern.windows(2) {
+        sum = sum.zip(pair[0].number).map(|(sum, number)| sum + number);
+        let (Some(last), Some(first), Some(chern)) = (pair[0].branches.last(), pair[1].branches.first(), sum) else {
+            continue;
+        };
+        let from = omega.iter().map(|row| row[*last]).fold(0.0, f64::max);
+        let to = omega.iter().map(|row| row[*first]).fold(f64::INFINITY, f64::min);
+        if to > from {
+            gaps.push(ChernGap { from, to, below: *last, chern });
+        }
+    }
+    gaps
+}
