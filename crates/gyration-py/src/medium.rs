@@ -49,7 +49,7 @@ pub fn fields<'py>(
     every: usize,
 ) -> PyResult<Bound<'py, PyAny>> {
     let points = match (at, grid) {
-        (Some(_), Some(_)) => return Err(errors::arguments("`at` and `grid` do not go together".to_owned())),
+        (Some(_), Some(_)) => return Err(errors::arguments("`at` and `grid` do not go together")),
         (Some(at), None) => FieldPoints::At(at.into_iter().map(Vec3::from).collect()),
         (None, Some(counts)) => FieldPoints::Grid(counts),
         (None, None) => FieldPoints::Usual,
@@ -73,7 +73,7 @@ pub fn orbit<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let choice = match (energy, amplitude, period) {
         (Some(_), Some(_), _) => {
-            return Err(errors::arguments("`energy` and `amplitude` do not go together".to_owned()));
+            return Err(errors::arguments("`energy` and `amplitude` do not go together"));
         }
         (Some(energy), None, _) => OrbitChoice::Energy(energy, period),
         (None, Some((column, value)), _) => OrbitChoice::Amplitude(column, value, period),
@@ -81,7 +81,7 @@ pub fn orbit<'py>(
         (None, None, None) => OrbitChoice::Nearest,
     };
     if period.is_some_and(|period| !(period.is_finite() && period > 0.0)) {
-        return Err(errors::arguments("`period` is no time above zero\n  fix: give seconds".to_owned()));
+        return Err(errors::arguments("`period` is no time above zero\n  fix: give seconds"));
     }
     let scene = Scene::ready(scene)?;
     let found = interruptibly(py, || OrbitSurvey::of(&scene, &choice))?.map_err(errors::arguments)?;
