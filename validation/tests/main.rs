@@ -20,6 +20,7 @@ mod case_continuum;
 mod case_contracting_box;
 mod case_contraction_modes;
 mod case_deforming_inclusion;
+mod case_dispersion;
 mod case_driven_joints;
 mod case_fields;
 mod case_gallery_dissipates;

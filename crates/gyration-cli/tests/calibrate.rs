@@ -73,3 +73,23 @@ fn the_example_of_the_book_finds_the_laws_that_made_it() {
     // 9 degrees of freedom: 99.9 % lie below 28.
     assert!(json["chi_squared"].as_f64().unwrap() < 28.0, "{}", json["chi_squared"]);
 }
+
+#[test]
+fn waves_of_a_lattice_are_fitted() {
+    let sandbox = Sandbox::new();
+    sandbox.write("chain.toml", crate::bands::DIATOMIC);
+    // ω at the edge of the zone, √(2k/m): 3 N/m of masses of 2 kg and 1 kg.
+    sandbox.write(
+        "waves.csv",
+        "kappa_1,kappa_2,kappa_3,branch,omega,error\n0.5,0,0,4,1.7320508,0.01\n0.5,0,0,5,2.4494897,0.01\n",
+    );
+    sandbox.write(
+        "data.toml",
+        "scene = \"chain.toml\"\n[fit.k]\nkeys = [\"spring.0.stiffness\", \"spring.1.stiffness\"]\nstart = 2\n\
+         [[dispersion]]\ntable = \"waves.csv\"\n",
+    );
+    let json: Value = serde_json::from_str(&sandbox.done(&["calibrate", "data.toml", "--json"]).stdout).unwrap();
+    let k = json["numbers"][0]["value"].as_f64().unwrap();
+    assert!((k - 3.0).abs() < 1e-6, "{k}");
+    assert!(sandbox.names().contains(&"data-fit.svg".to_owned()));
+}

@@ -22,7 +22,8 @@ pub fn figure(calibration: &Calibration, fitted: &Fitted) -> Figure {
 
 fn panel(curve: &Curve, fitted: &Fitted) -> Panel {
     let table = &curve.experiment;
-    let rows: Vec<&Residual> = fitted.residuals.iter().filter(|row| row.table == table.place()).collect();
+    let is_own = |row: &&Residual| row.table == table.place() && curve.rows.contains(&row.row);
+    let rows: Vec<&Residual> = fitted.residuals.iter().filter(is_own).collect();
     let over_rows = curve.points.len() < 2;
     let many = table.kind.shown().map_or(1.0, |(_, many)| many);
     let place = |row: &Residual| if over_rows { row.row as f64 + 1.0 } else { many * row.condition };
@@ -54,7 +55,8 @@ fn panel(curve: &Curve, fitted: &Fitted) -> Panel {
         (None, None) => Axis::linear("row", "", level),
     };
     let y = Axis::linear(measured, unit, all.iter().map(|point| point[1]));
-    let title = format!("{}, {}", table.place(), table.body);
+    let branch = curve.branch.map_or(String::new(), |branch| format!(", branch {branch}"));
+    let title = format!("{}, {}{branch}", table.place(), table.subject());
     let remarks = vec!["measured, with its".to_owned(), "standard deviation".to_owned()];
     Panel::ShapeChart(ShapeChart { chart: Chart { title, x, y, series, remarks, height: HEIGHT }, shapes })
 }

@@ -7,6 +7,7 @@ mod book;
 mod calibration;
 mod common;
 mod corpus;
+mod dispersion;
 mod errors;
 mod flips;
 mod keeps;

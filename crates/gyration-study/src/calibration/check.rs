@@ -12,7 +12,9 @@ pub(super) fn is_possible(kind: ExperimentKind, condition: f64, measured: f64, d
     let most = match kind {
         ExperimentKind::Drop => condition + 3.0 * deviation,
         ExperimentKind::Begins => FRAC_PI_2,
-        ExperimentKind::Slope | ExperimentKind::Gap | ExperimentKind::PullOff => f64::INFINITY,
+        ExperimentKind::Slope | ExperimentKind::Gap | ExperimentKind::PullOff | ExperimentKind::Dispersion => {
+            f64::INFINITY
+        }
     };
     measured > 0.0 && measured < most
 }
@@ -30,7 +32,7 @@ pub(super) fn keys_once(input: &mut InputFile, numbers: &[FreeNumber], template:
     }
     let is_part =
         |one: &str, other: &str| one == other || one.strip_prefix(other).is_some_and(|rest| rest.starts_with('.'));
-    for kind in [ExperimentKind::Drop, ExperimentKind::Gap, ExperimentKind::Slope, ExperimentKind::PullOff] {
+    for kind in ExperimentKind::SECTIONS {
         let count = input.value(&[kind.word()]).and_then(|tables| tables.as_array().map(Vec::len)).unwrap_or(0);
         for index in (0..count).map(|index| index.to_string()) {
             let place = [kind.word(), index.as_str()];

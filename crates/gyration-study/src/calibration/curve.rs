@@ -2,9 +2,11 @@
 //!
 //!   m(x) ± 1.96 √(gᵀ C g),   g = ∂m/∂u
 
+use super::predict::Prediction;
 use super::{Calibration, Experiment, ExperimentKind, Fitted};
 use gyration_threads::on_own_threads;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use std::collections::BTreeSet;
 
 /// Half of the width of an interval of 95 %, in standard errors.
 const WIDTH: f64 = 1.959_963_984_540_054;
@@ -20,6 +22,10 @@ const BEYOND: f64 = 0.05;
 pub struct Curve {
     /// The table.
     pub experiment: Experiment,
+    /// Its rows, from zero: of waves those of one branch.
+    pub rows: Vec<usize>,
+    /// The branch of waves.
+    pub branch: Option<usize>,
     /// By condition; with but one condition, that one.
     pub points: Vec<CurvePoint>,
 }
@@ -39,7 +45,11 @@ impl Calibration {
     /// The curves of a fit; points that cannot be computed are left out.
     pub fn curves(&self, fitted: &Fitted) -> Vec<Curve> {
         let values: Vec<f64> = fitted.numbers.iter().map(|number| number.value).collect();
-        on_own_threads(|| self.experiments.iter().map(|table| self.curve(table, fitted, &values)).collect())
+        let curves = |table: &Experiment| match table.kind {
+            ExperimentKind::Dispersion => self.branches(table, fitted, &values),
+            _ => vec![self.curve(table, fitted, &values)],
+        };
+        on_own_threads(|| self.experiments.iter().flat_map(curves).collect())
     }
 
     fn curve(&self, table: &Experiment, fitted: &Fitted, values: &[f64]) -> Curve {
@@ -57,10 +67,30 @@ impl Calibration {
         conditions.dedup();
         let point = |condition: f64| {
             let predicted = self.predicted(table, condition, values).ok()?;
-            let slopes = nalgebra::DVector::from_vec(self.inward(&predicted.slopes, values, 1.0));
-            let variance = slopes.dot(&(&fitted.covariance * &slopes));
-            Some(CurvePoint { condition, value: predicted.value, half_width: WIDTH * variance.max(0.0).sqrt() })
+            Some(self.point(condition, &predicted, fitted, values))
         };
-        Curve { experiment: table.clone(), points: conditions.into_par_iter().filter_map(point).collect() }
+        let points = conditions.into_par_iter().filter_map(point).collect();
+        Curve { experiment: table.clone(), rows: (0..table.measured.len()).collect(), branch: None, points }
+    }
+
+    /// A curve a branch, through the waves that were measured, by |κ|.
+    fn branches(&self, table: &Experiment, fitted: &Fitted, values: &[f64]) -> Vec<Curve> {
+        let predicted = self.predicted_frequencies(table, values).unwrap_or_default();
+        let branches: BTreeSet<usize> = table.waves.iter().map(|wave| wave.branch).collect();
+        let curve = |branch: usize| {
+            let mut rows: Vec<usize> =
+                (0..table.waves.len()).filter(|row| table.waves[*row].branch == branch).collect();
+            rows.sort_by(|a, b| table.conditions[*a].total_cmp(&table.conditions[*b]));
+            let point = |row: &usize| Some(self.point(table.conditions[*row], predicted.get(*row)?, fitted, values));
+            let points = rows.iter().filter_map(point).collect();
+            Curve { experiment: table.clone(), rows, branch: Some(branch), points }
+        };
+        branches.into_iter().map(curve).collect()
+    }
+
+    fn point(&self, condition: f64, predicted: &Prediction, fitted: &Fitted, values: &[f64]) -> CurvePoint {
+        let slopes = nalgebra::DVector::from_vec(self.inward(&predicted.slopes, values, 1.0));
+        let variance = slopes.dot(&(&fitted.covariance * &slopes));
+        CurvePoint { condition, value: predicted.value, half_width: WIDTH * variance.max(0.0).sqrt() }
     }
 }

@@ -31,6 +31,9 @@ pub struct CalibrationFile {
     /// Forces that tear a body off its support.
     #[serde(default)]
     pub pull_off: Vec<PullOff>,
+    /// Frequencies of waves through a lattice.
+    #[serde(default)]
+    pub dispersion: Vec<Dispersion>,
 }
 
 /// A number to find.
@@ -138,3 +141,33 @@ measurements!(
         force
     }
 );
+
+/// Waves through the lattice of the scene: their frequencies.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Dispersion {
+    /// Changes to the scene for these measurements, by dotted key.
+    #[serde(default)]
+    pub set: BTreeMap<String, Json>,
+    /// A CSV file with columns of the names below, in SI units, relative to this file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub table: Option<String>,
+    /// κ along the first reciprocal vector.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kappa_1: Option<Json>,
+    /// κ along the second; 0 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kappa_2: Option<Json>,
+    /// κ along the third; 0 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kappa_3: Option<Json>,
+    /// Branches, counted from 0 by ascending frequency, as `gyration bands` does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub branch: Option<Json>,
+    /// Frequencies ω (rad/s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub omega: Option<Json>,
+    /// Standard deviation of each (rad/s): a number, or one a row.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<Json>,
+}

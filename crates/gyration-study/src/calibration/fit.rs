@@ -4,10 +4,10 @@
 //! bad one: the search then tries a shorter step.
 
 use super::least_squares::{Minimum, Problem, SearchEnd, minimize};
+use super::predict::Prediction;
 use super::{Calibration, CalibrationError, Experiment};
 use gyration_threads::{Interrupted, Interruption};
 use nalgebra::{DMatrix, DVector};
-use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// The residual of a trial that cannot be computed: worse than any other, and its square is still a number.
 const BAD: f64 = 1e100;
@@ -49,18 +49,11 @@ impl Calibration {
     /// [`CalibrationError::Start`] with the first row that has nothing to measure.
     pub fn predictions(&self) -> Result<Vec<f64>, CalibrationError> {
         let start: Vec<f64> = self.numbers.iter().map(|number| number.start).collect();
-        let predict = |(table, row): (&Experiment, usize)| {
-            let place = || format!("{}, row {}", table.place(), row + 1);
-            let found = self.value(table, table.conditions[row], &start);
-            found.map_err(|reason| CalibrationError::Start { place: place(), reason })
+        let placed = |((table, row), found): ((&Experiment, usize), Result<f64, String>)| {
+            let place = format!("{}, row {}", table.place(), row + 1);
+            found.map_err(|reason| CalibrationError::Start { place, reason })
         };
-        self.each_row(predict).into_iter().collect()
-    }
-
-    /// Something of every row with its table, in this order; in parallel, under the interruption in force.
-    pub(super) fn each_row<'a, T: Send>(&'a self, work: impl Fn((&'a Experiment, usize)) -> T + Sync) -> Vec<T> {
-        let interruption = Interruption::in_force();
-        self.rows().collect::<Vec<_>>().into_par_iter().map(|row| interruption.within(|| work(row))).collect()
+        self.rows().zip(self.values_of_rows(&start)).map(placed).collect()
     }
 
     /// Searches, with so many evaluations at most if that is given.
@@ -142,7 +135,7 @@ impl Calibration {
     }
 
     /// Every row with its table, in order.
-    fn rows(&self) -> impl Iterator<Item = (&Experiment, usize)> {
+    pub(super) fn rows(&self) -> impl Iterator<Item = (&Experiment, usize)> {
         self.experiments.iter().flat_map(|table| (0..table.measured.len()).map(move |row| (table, row)))
     }
 
@@ -175,11 +168,11 @@ impl Calibration {
 impl Problem for Residuals<'_> {
     fn residuals(&self, u: &DVector<f64>) -> DVector<f64> {
         let values = self.calibration.values_at(u.as_slice());
-        let residual = |(table, row): (&Experiment, usize)| {
-            let found = self.calibration.value(table, table.conditions[row], &values);
+        let residual = |((table, row), found): ((&Experiment, usize), Result<f64, String>)| {
             found.map_or(BAD, |found| (found - table.measured[row]) / table.deviations[row])
         };
-        let mut all: Vec<f64> = self.calibration.each_row(residual);
+        let found = self.calibration.values_of_rows(&values);
+        let mut all: Vec<f64> = self.calibration.rows().zip(found).map(residual).collect();
         all.extend((u - &self.start).iter().map(|way| way / START));
         all.into()
     }
@@ -197,11 +190,10 @@ impl Problem for Residuals<'_> {
 impl Calibration {
     /// ∂r/∂u, a list a row.
     pub(super) fn weighted_slopes(&self, values: &[f64]) -> Result<Vec<Vec<f64>>, String> {
-        let row = |(table, row): (&Experiment, usize)| {
-            let predicted = self.predicted(table, table.conditions[row], values)?;
-            Ok(self.inward(&predicted.slopes, values, table.deviations[row]))
+        let row = |((table, row), found): ((&Experiment, usize), Result<Prediction, String>)| {
+            Ok(self.inward(&found?.slopes, values, table.deviations[row]))
         };
-        self.each_row(row).into_iter().collect()
+        self.rows().zip(self.predictions_of_rows(values)).map(row).collect()
     }
 
     /// Derivatives by the numbers as derivatives by u, over a deviation.

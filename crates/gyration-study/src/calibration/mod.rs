@@ -3,13 +3,16 @@
 //!   min Σ_i ((y_i − m_i(p))/σ_i)²
 //!
 //! m_i are computed with the simulator itself (`predict`): a rebound by a run to its apex, a gap from the exact rest
-//! state, the speed on a slope and the force of pull-off from the balance of forces. Their derivatives come from the
-//! sensitivities of the run, or from differences of what has no run. The least squares are in `fit` and
-//! `least_squares`; what is known of the numbers afterwards is in `uncertainty`.
+//! state, the speed on a slope and the force of pull-off from the balance of forces, a frequency from the bands of a
+//! lattice. Their derivatives come from the sensitivities of the run or those of bands, or from differences of what has
+//! neither. The least squares are in `fit` and `least_squares`; what is known of the numbers afterwards is in
+//! `uncertainty`.
 
 mod check;
+mod columns;
 mod csv;
 mod curve;
+mod dispersion;
 pub(crate) mod file;
 mod fit;
 mod least_squares;
@@ -67,6 +70,17 @@ pub enum ExperimentKind {
     Begins,
     /// Torn off; the force was measured.
     PullOff,
+    /// Waves ran through a lattice; their frequencies were measured.
+    Dispersion,
+}
+
+/// A wave whose frequency was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasuredWave {
+    /// κ.
+    pub kappa: [f64; 3],
+    /// The branch, from 0 by ascending frequency.
+    pub branch: usize,
 }
 
 /// A table of measurements.
@@ -76,13 +90,15 @@ pub struct Experiment {
     pub kind: ExperimentKind,
     /// Which of its kind, from zero.
     pub index: usize,
-    /// The body.
+    /// The body; empty of waves.
     pub body: String,
     settings: Vec<Override>,
     /// The key of the condition, where it is a number of the scene.
     pub key: Option<String>,
-    /// The condition of each row: height, angle, or the number at the key.
+    /// The condition of each row: height, angle, |κ|, or the number at the key.
     pub conditions: Vec<f64>,
+    /// The wave of each row, where waves were measured.
+    pub waves: Vec<MeasuredWave>,
     /// What was measured in each row.
     pub measured: Vec<f64>,
     /// The standard deviation of each.
@@ -127,6 +143,9 @@ pub enum CalibrationError {
 }
 
 impl ExperimentKind {
+    /// A kind of each section of the file.
+    const SECTIONS: [Self; 5] = [Self::Drop, Self::Gap, Self::Slope, Self::PullOff, Self::Dispersion];
+
     /// The word of its section in the file.
     pub fn word(self) -> &'static str {
         match self {
@@ -134,6 +153,7 @@ impl ExperimentKind {
             Self::Gap => "gap",
             Self::Slope | Self::Begins => "slope",
             Self::PullOff => "pull_off",
+            Self::Dispersion => "dispersion",
         }
     }
 
@@ -142,6 +162,7 @@ impl ExperimentKind {
         match self {
             Self::Drop => Some(("height", "m")),
             Self::Slope => Some(("angle", "rad")),
+            Self::Dispersion => Some(("|κ|", "")),
             Self::Begins | Self::Gap | Self::PullOff => None,
         }
     }
@@ -162,6 +183,7 @@ impl ExperimentKind {
             Self::Slope => ("speed", "m/s"),
             Self::Begins => ("angle", "rad"),
             Self::PullOff => ("force", "N"),
+            Self::Dispersion => ("omega", "rad/s"),
         }
     }
 }
@@ -170,6 +192,11 @@ impl Experiment {
     /// Where it stands in the file.
     pub fn place(&self) -> String {
         format!("{}.{}", self.kind.word(), self.index)
+    }
+
+    /// What it is of: the body, or a lattice.
+    pub fn subject(&self) -> &str {
+        if self.kind == ExperimentKind::Dispersion { "lattice" } else { &self.body }
     }
 }
 

@@ -6,6 +6,7 @@
 //! | gap | of the rest state, where the exact balance has no force left |
 //! | speed on a slope θ | at which friction is m g sin θ, at rest under g cos θ; without a bound m g sin θ/c |
 //! | slope where sliding begins | tan θ = F/(m g cos θ), F the most that friction holds at rest under g cos θ |
+//! | frequency | that of the branch at κ, counted by ascending frequency (`dispersion`) |
 //! | pull-off | the largest force towards the support over all gaps, in the attitude of the start |
 //!
 //! Viscous friction holds nothing: a body slides on every slope, v = (α/β) tan θ where both exponents are the same, and
@@ -22,6 +23,8 @@ use gyration::state::State;
 use gyration::tensor::Vec3;
 use gyration_scene::Scene;
 use gyration_sim::modes::rest;
+use gyration_threads::Interruption;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// Points of a look for the largest force, over gaps from [`NEAREST`] to [`FARTHEST`] sizes of the body.
 const POINTS: usize = 160;
@@ -42,6 +45,67 @@ pub(super) struct Prediction {
 }
 
 impl Calibration {
+    /// What would be measured in a row of a table.
+    ///
+    /// # Errors
+    /// Why nothing would be, in words.
+    pub(super) fn value_of_row(&self, table: &Experiment, row: usize, values: &[f64]) -> Result<f64, String> {
+        match table.waves.get(row) {
+            Some(wave) => Ok(self.frequencies(&table.of_wave(wave), values)?[0]),
+            None => self.value(table, table.conditions[row], values),
+        }
+    }
+
+    /// The same with derivatives by the numbers.
+    ///
+    /// # Errors
+    /// Why there is none, in words.
+    pub(super) fn prediction_of_row(
+        &self,
+        table: &Experiment,
+        row: usize,
+        values: &[f64],
+    ) -> Result<Prediction, String> {
+        match table.waves.get(row) {
+            Some(wave) => Ok(self.predicted_frequencies(&table.of_wave(wave), values)?.swap_remove(0)),
+            None => self.predicted(table, table.conditions[row], values),
+        }
+    }
+
+    /// What would be measured in every row.
+    pub(super) fn values_of_rows(&self, values: &[f64]) -> Vec<Result<f64, String>> {
+        let row = |table: &Experiment, row: usize| self.value(table, table.conditions[row], values);
+        self.of_rows(row, |table| self.frequencies(table, values))
+    }
+
+    /// The same with derivatives by the numbers.
+    pub(super) fn predictions_of_rows(&self, values: &[f64]) -> Vec<Result<Prediction, String>> {
+        let row = |table: &Experiment, row: usize| self.predicted(table, table.conditions[row], values);
+        self.of_rows(row, |table| self.predicted_frequencies(table, values))
+    }
+
+    /// Something of every row, in order: of a table of waves all at once, since they share a rest.
+    fn of_rows<T: Send>(
+        &self,
+        row: impl Fn(&Experiment, usize) -> Result<T, String> + Sync,
+        waves: impl Fn(&Experiment) -> Result<Vec<T>, String> + Sync,
+    ) -> Vec<Result<T, String>> {
+        let jobs = self.experiments.iter().flat_map(|table| match table.kind {
+            ExperimentKind::Dispersion => vec![(table, None)],
+            _ => (0..table.measured.len()).map(|row| (table, Some(row))).collect(),
+        });
+        let interruption = Interruption::in_force();
+        let work = |(table, at): (&Experiment, Option<usize>)| match at {
+            Some(at) => vec![interruption.within(|| row(table, at))],
+            None => match interruption.within(|| waves(table)) {
+                Ok(all) => all.into_iter().map(Ok).collect(),
+                Err(reason) => table.waves.iter().map(|_| Err(reason.clone())).collect(),
+            },
+        };
+        let found: Vec<Vec<_>> = jobs.collect::<Vec<_>>().into_par_iter().map(work).collect();
+        found.into_iter().flatten().collect()
+    }
+
     /// What would be measured under a condition.
     ///
     /// # Errors
@@ -56,6 +120,7 @@ impl Calibration {
             }
             ExperimentKind::Begins => self.begins(experiment, values),
             ExperimentKind::PullOff => pull_off(&self.scene(experiment, condition, values, &[])?, experiment),
+            ExperimentKind::Dispersion => Err("a frequency is that of a wave, which no condition tells".to_owned()),
         }
     }
 

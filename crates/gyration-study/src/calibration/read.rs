@@ -1,11 +1,12 @@
 //! From a file of measurements to a calibration: everything that is wrong at once, each with its place and its fix.
 
 use super::check::{is_possible, keys_once};
-use super::csv::Csv;
+use super::columns::{column, csv, settings};
+use super::dispersion;
 use super::file;
 use super::scale::Scale;
 use super::{Calibration, Experiment, ExperimentKind, FreeNumber};
-use crate::written::{measured, measured_in, toml};
+use crate::written::measured;
 use gyration_scene::input::{InputFile, InputRules, fix};
 use gyration_scene::{LoadError, Override, Template, unit_of};
 use serde_json::Value as Json;
@@ -55,10 +56,14 @@ impl Calibration {
             keys_once(&mut input, &numbers, template);
         }
         let mut experiments = Vec::new();
-        for kind in [ExperimentKind::Drop, ExperimentKind::Gap, ExperimentKind::Slope, ExperimentKind::PullOff] {
+        for kind in ExperimentKind::SECTIONS {
             let count = input.value(&[kind.word()]).and_then(|tables| tables.as_array().map(Vec::len)).unwrap_or(0);
-            let tables = (0..count).filter_map(|index| experiment(&mut input, kind, index, base, resolved.as_ref()));
-            experiments.extend(tables.collect::<Vec<_>>());
+            for index in 0..count {
+                experiments.extend(match kind {
+                    ExperimentKind::Dispersion => dispersion::read(&mut input, index, base, resolved.as_ref()),
+                    _ => experiment(&mut input, kind, index, base, resolved.as_ref()),
+                });
+            }
         }
         let rows: usize = experiments.iter().map(|table: &Experiment| table.measured.len()).sum();
         if input.is_sound() && rows < numbers.len() {
@@ -75,15 +80,6 @@ impl Calibration {
 
 fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "calibration".to_owned(), |stem| stem.to_string_lossy().into_owned())
-}
-
-/// The overrides of a table `set`.
-fn settings(input: &InputFile, place: &[&str]) -> Vec<Override> {
-    let setting = |key: String| {
-        let value = input.value(&[place, &[&key]].concat()).unwrap_or_default();
-        Override::new(key, toml(&value).as_str())
-    };
-    input.keys(place).into_iter().map(setting).collect()
 }
 
 /// The numbers of the scene with the settings; what is wrong with it is noted.
@@ -295,7 +291,7 @@ fn experiment(
     }
     let body = body(input, &place, resolved)?;
     let settings = settings(input, &inside("set"));
-    Some(Experiment { kind, index, body, settings, key, conditions, measured, deviations })
+    Some(Experiment { kind, index, body, settings, key, conditions, waves: Vec::new(), measured, deviations })
 }
 
 /// Whether a slope is one at which a body begins to slide; none if it cannot be.
@@ -328,49 +324,4 @@ fn body(input: &mut InputFile, place: &[&str; 2], resolved: Option<&Json>) -> Op
             None
         }
     }
-}
-
-/// The CSV file of a table, if it has one; the outer none: it cannot be read.
-fn csv(input: &mut InputFile, place: &[&str; 2], base: &Path) -> Option<Option<Csv>> {
-    let place = [place[0], place[1], "table"];
-    let Some(name) = input.take::<String>(&place) else { return Some(None) };
-    let found = Csv::read(base, &name);
-    found
-        .map(Some)
-        .map_err(|message| input.note(&place, message, "write the path, relative to this file, of a table"))
-        .ok()
-}
-
-/// A column: a list or a number in the file, or of its CSV file. The outer none: something is wrong with it.
-fn column(input: &mut InputFile, place: &[&str; 3], unit: Option<&str>, csv: Option<&Csv>) -> Option<Option<Vec<f64>>> {
-    let Some(value) = input.value(place) else {
-        return match csv.and_then(|csv| csv.column(place[2])) {
-            None => Some(None),
-            Some(Ok(numbers)) => Some(Some(numbers)),
-            Some(Err(message)) => {
-                input.note(&[place[0], place[1], "table"], message, "write a number in SI units");
-                None
-            }
-        };
-    };
-    if csv.is_some_and(|csv| csv.column(place[2]).is_some()) {
-        let message = format!("`{}` stands here and in the table beside it", place[2]);
-        input.note(place, message, "remove one of the two");
-        return None;
-    }
-    let items = match value {
-        Json::Array(items) => items,
-        one => vec![one],
-    };
-    let mut numbers = Vec::new();
-    for item in &items {
-        match measured_in(item, place[2], unit) {
-            Ok(number) => numbers.push(number),
-            Err((message, help)) => {
-                input.note(place, message, help);
-                return None;
-            }
-        }
-    }
-    Some(Some(numbers))
 }

@@ -24,6 +24,14 @@ impl Calibration {
         found.map_err(|errors| errors.as_slice().first().map_or_else(String::new, |error| error.message.clone()))
     }
 
+    /// The scene of measured waves, which starts with none of its own.
+    pub(super) fn lattice(&self, table: &Experiment, values: &[f64]) -> Result<Scene, String> {
+        let mut overrides = self.overrides(values);
+        overrides.extend(table.settings.iter().cloned());
+        let found = self.template.scene(&overrides).map(Scene::without_waves).and_then(complete);
+        found.map_err(|errors| errors.as_slice().first().map_or_else(String::new, |error| error.message.clone()))
+    }
+
     /// How long the search may take: what the scene says of a run.
     pub(super) fn max_wall_time(&self) -> Option<Duration> {
         self.template.scene(&self.settings).ok()?.built().plan.wall_time()

@@ -104,7 +104,7 @@ impl Calibration {
     fn is_at_odds(&self, left: Left, suspect: &Suspect, values: &[f64]) -> bool {
         let (Some(row), experiment) = (left.row, &self.experiments[left.table]) else { return false };
         let deviation = experiment.deviations[row];
-        let Ok(predicted) = self.predicted(experiment, experiment.conditions[row], values) else { return false };
+        let Ok(predicted) = self.prediction_of_row(experiment, row, values) else { return false };
         let Ok(slopes) = self.without(left).weighted_slopes(values) else { return false };
         let count = values.len();
         let jacobian = DMatrix::from_row_iterator(slopes.len(), count, slopes.into_iter().flatten());
@@ -136,7 +136,7 @@ impl Calibration {
             return None;
         }
         let row = left.row.unwrap_or(0);
-        let expected = self.value(experiment, experiment.conditions[row], &values).ok()?;
+        let expected = self.value_of_row(experiment, row, &values).ok()?;
         let measured = experiment.measured[row];
         let table = experiment.place();
         let suspect = Suspect { table, row: left.row, chi_squared, degrees_of_freedom, measured, expected };
@@ -151,6 +151,11 @@ impl Calibration {
                 Some(row) => drop(column.remove(row)),
                 None => column.clear(),
             }
+        }
+        let waves = &mut others.experiments[left.table].waves;
+        match left.row.filter(|row| *row < waves.len()) {
+            Some(row) => drop(waves.remove(row)),
+            None => waves.retain(|_| left.row.is_some()),
         }
         others
     }

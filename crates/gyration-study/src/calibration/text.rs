@@ -1,7 +1,7 @@
 //! A fit as text, as `gyration calibrate` prints it.
 
 use super::suspect::is_far;
-use super::{Calibration, Fitted, FittedNumber, Suspect};
+use super::{Calibration, Fitted, FittedNumber, MeasuredWave, Suspect};
 use gyration_scene::unit_of;
 use std::fmt::Write as _;
 
@@ -88,8 +88,12 @@ fn residuals(text: &mut String, calibration: &Calibration, fitted: &Fitted) {
             };
             // Six digits, without the zeros behind.
             let number: f64 = format!("{:.5e}", row.condition * many).parse().unwrap_or(row.condition);
+            let wave = table
+                .waves
+                .get(row.row)
+                .map(|MeasuredWave { kappa: [x, y, z], branch }| format!("{x:.4} {y:.4} {z:.4}, {branch}"));
             let condition = if many == 0.0 { String::new() } else { format!("{number} {unit}") };
-            (table.kind.measured().1, condition)
+            (table.kind.measured().1, wave.unwrap_or(condition))
         });
         let _ = writeln!(
             text,

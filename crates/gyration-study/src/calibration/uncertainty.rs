@@ -178,13 +178,13 @@ impl Calibration {
     }
 
     pub(super) fn residuals(&self, values: &[f64]) -> Result<Vec<Residual>, CalibrationError> {
-        let residual = |(table, row): (&super::Experiment, usize)| {
+        let residual = |((table, row), found): ((&super::Experiment, usize), Result<f64, String>)| {
             let (condition, measured, deviation) = (table.conditions[row], table.measured[row], table.deviations[row]);
-            let fitted = self.value(table, condition, values).map_err(CalibrationError::Search)?;
+            let fitted = found.map_err(CalibrationError::Search)?;
             let weighted = (fitted - measured) / deviation;
             Ok(Residual { table: table.place(), row, condition, measured, deviation, fitted, weighted })
         };
-        self.each_row(residual).into_iter().collect()
+        self.rows().zip(self.values_of_rows(values)).map(residual).collect()
     }
 
     /// What a direction leaves open: the numbers that take part, and the one that moves most.
