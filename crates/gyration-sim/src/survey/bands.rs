@@ -1,10 +1,11 @@
 //! Bands of a lattice, in a form to print.
 
+use super::cell::{unit_cell, waves_of};
 use super::modes::{Named, RestPlace, left_out};
 use super::varied_bands::{BandNumber, VariedBands};
 use crate::modes::PARTS;
 use crate::modes::bands::{
-    BandPath, BandRow, BandShape, LatticeWaves, MOST_POINTS, NoBands, RowRequest, Sound, StrainPath, StrainedCell, Zone,
+    BandPath, BandRow, BandShape, LatticeWaves, MOST_POINTS, NoBands, RowRequest, Sound, StrainPath, Zone,
 };
 use crate::waves::PassingWaves;
 use gyration::tensor::{Mat3, Vec3};
@@ -97,26 +98,6 @@ pub struct BandOptions {
     pub derivatives: Vec<String>,
     /// Whether it is wanted by how much ω may be off.
     pub bound: bool,
-}
-
-/// The cell of a scene whose bands are asked for.
-///
-/// # Errors
-/// Why it has none, in words.
-pub fn unit_cell(scene: &Scene) -> Result<&UnitCell, String> {
-    let Some(cell) = &scene.built().cell else {
-        return Err("the scene has no `[lattice]`, so that no waves run through it: `gyration modes` has the small \
-                    motions of single bodies and of bodies that are joined"
-            .to_owned());
-    };
-    if !cell.periodic.contains(&true) {
-        return Err(
-            "the lattice is periodic along no direction, so that no waves run through it: `gyration modes` has \
-                    its small motions"
-                .to_owned(),
-        );
-    }
-    Ok(cell)
 }
 
 /// A path as it is written, or the usual one of a cell.
@@ -214,15 +195,6 @@ fn unsure(numbers: &[BandNumber]) -> Vec<String> {
     numbers.iter().filter(|number| number.error > UNSURE).map(told).collect()
 }
 
-/// The waves of a cell, deformed or as it is written.
-pub(super) fn waves_of(cell: &UnitCell, strain: Option<&StrainPath>) -> Result<LatticeWaves, NoBands> {
-    match (strain, cell.load) {
-        (None, None) => LatticeWaves::new(&cell.model, &cell.state, cell.relaxes),
-        (None, Some(_)) => Ok(beginning(cell)?.at(&Mat3::identity())?.1),
-        (Some(strain), _) => Ok(beginning(cell)?.at(&strain.at(0.0))?.1),
-    }
-}
-
 /// The waves of the lattice of a scene as they pass over a block of its cells.
 ///
 /// # Errors
@@ -232,12 +204,6 @@ pub fn passing_waves(scene: &Scene) -> Result<PassingWaves, String> {
     let waves = waves_of(cell, None).map_err(|error| error.to_string())?;
     let written = scene.file().lattice.as_ref().map_or([1; 3], |lattice| lattice.repeat.map(|it| it.0 as u32));
     Ok(PassingWaves::new(cell.clone(), written, waves))
-}
-
-/// The cell that strains are of: as it is written, or as it rests under its stress.
-pub(super) fn beginning(cell: &UnitCell) -> Result<StrainedCell, NoBands> {
-    let written = StrainedCell::new(&cell.model, &cell.state);
-    cell.load.map_or(Ok(written.clone()), |load| written.at_rest(load))
 }
 
 /// Where a cell is looked at.

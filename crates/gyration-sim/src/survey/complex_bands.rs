@@ -1,6 +1,7 @@
 //! Complex bands of a lattice, in a form to print: all wave vectors that a frequency has.
 
-use super::bands::{BandOptions, path_of, unit_cell, waves_of};
+use super::bands::{BandOptions, path_of};
+use super::cell::{unit_cell, waves_of};
 use crate::modes::bands::NoBands;
 use gyration_scene::Scene;
 use serde::Serialize;

@@ -1,6 +1,7 @@
 //! The continuum of a lattice, in a form to print.
 
-use super::bands::{CellRestSurvey, cell_rest, path_of, unit_cell, warnings_of, waves_of};
+use super::bands::{CellRestSurvey, cell_rest, path_of, warnings_of};
+use super::cell::{unit_cell, waves_of};
 use crate::modes::bands::{BandRow, Continuum, ContinuumModel, NoBands, NoContinuum, Reach, Tensor, frequency_error};
 use gyration_scene::Scene;
 use nalgebra::DMatrix;

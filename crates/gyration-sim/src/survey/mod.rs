@@ -10,6 +10,7 @@
 pub(crate) mod balance;
 mod bands;
 mod bodies;
+mod cell;
 mod complex_bands;
 mod continuum;
 mod contraction;
@@ -36,8 +37,9 @@ mod topology;
 mod varied_bands;
 mod words;
 
-pub use bands::{BandDerivatives, BandOptions, BandSurvey, CellRestSurvey, passing_waves, unit_cell};
+pub use bands::{BandDerivatives, BandOptions, BandSurvey, CellRestSurvey, passing_waves};
 pub use bodies::{BodyModes, BodySurvey, PairSurvey, SceneModes, Survey, SystemModes, modes, modes_in_json};
+pub use cell::unit_cell;
 pub use complex_bands::{ComplexBandOptions, ComplexBandSurvey};
 pub use continuum::{ContinuumMap, ContinuumSurvey};
 pub use encounter::Encounter;

@@ -1,6 +1,7 @@
 //! What becomes of a lattice as its cell is deformed, in a form to print.
 
-use super::bands::{beginning, check_mesh, unit_cell};
+use super::bands::check_mesh;
+use super::cell::{beginning, unit_cell};
 use crate::modes::bands::{Instability, NoBands, StrainPath, StrainedRow, ZoneMesh};
 use gyration::tensor::Mat3;
 use gyration_scene::Scene;

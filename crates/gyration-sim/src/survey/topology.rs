@@ -1,6 +1,7 @@
 //! The phases of undamped waves, in a form to print.
 
-use super::bands::{path_of, unit_cell, waves_of};
+use super::bands::path_of;
+use super::cell::{unit_cell, waves_of};
 use crate::modes::bands::{BranchChern, ChernGap, MOST_POINTS, StrainPath, Topology};
 use gyration_scene::Scene;
 use serde::ser::SerializeStruct;

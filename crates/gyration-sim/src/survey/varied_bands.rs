@@ -5,7 +5,7 @@
 //! The matrices of neighbouring scenes, each at its own rest, are differentiated (`variation`), so that nothing has to
 //! be sorted by branches. Where several branches have one frequency, the changes are the eigenvalues of their block.
 
-use super::bands::{beginning, unit_cell, waves_of};
+use super::cell::{beginning, unit_cell, waves_of};
 use crate::modes::bands::{LatticeWaves, MatrixDoubt, NoBands, PathPoint, RowRequest, StrainPath, VariedCell};
 use crate::variation::{SceneNumber, SceneVariation};
 use gyration::tensor::Mat3;
