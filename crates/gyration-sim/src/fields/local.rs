@@ -6,6 +6,7 @@
 
 use super::granules::Granules;
 use super::weight::Weight;
+use gyration::lattice::Lattice;
 use gyration::tensor::{Mat3, Vec3};
 use nalgebra::SMatrix;
 use std::f64::consts::TAU;
@@ -53,11 +54,12 @@ pub struct LocalFields {
 impl Granules {
     /// The fields at a point \[m\].
     pub fn fields(&self, at: &Vec3, weight: &Weight) -> LocalFields {
+        let images = Images::of(&self.periods);
         let mut fields = LocalFields::default();
         let mut affine = Sums::<3>::none();
         let mut linear = Sums::<1>::none();
         for grain in &self.grains {
-            self.each_image(at, &grain.place, weight.reach(), |r| {
+            images.each(at, &grain.place, weight.reach(), |r| {
                 let (own, v) = (&grain.balance, &grain.velocity);
                 let (w, along) = (weight.at(r), weight.along(r, v));
                 fields.density += own.mass * w;
@@ -78,7 +80,7 @@ impl Granules {
         for link in &self.links {
             let [first, second] = &link.moments;
             let middle = link.place + 0.5 * link.arm;
-            self.each_image(at, &middle, weight.reach() + 0.5 * link.arm.norm(), |from_middle| {
+            images.each(at, &middle, weight.reach() + 0.5 * link.arm.norm(), |from_middle| {
                 let Some(line) = weight.line(&(from_middle + 0.5 * link.arm), &link.arm) else { return };
                 fields.contact_stress += (first + second) * line.whole;
                 fields.stress += link.force * link.arm.transpose() * line.whole;
@@ -98,12 +100,23 @@ impl Granules {
         fields.scales = [affine.scale, linear.scale];
         fields
     }
+}
+
+/// What follows itself without end.
+struct Images<'a> {
+    vectors: &'a [Vec3],
+    reciprocal: Vec<Vec3>,
+}
+
+impl<'a> Images<'a> {
+    fn of(periods: &'a Lattice) -> Self {
+        Self { vectors: periods.vectors(), reciprocal: periods.reciprocal() }
+    }
 
     /// Hands over where a point is as seen from each image of a place within a distance of it.
-    fn each_image(&self, at: &Vec3, place: &Vec3, within: f64, mut each: impl FnMut(&Vec3)) {
-        let vectors = self.periods.vectors();
+    fn each(&self, at: &Vec3, place: &Vec3, within: f64, mut each: impl FnMut(&Vec3)) {
         let mut bounds = [(0, 0); 3];
-        for (bound, reciprocal) in bounds.iter_mut().zip(self.periods.reciprocal()) {
+        for (bound, reciprocal) in bounds.iter_mut().zip(&self.reciprocal) {
             let (middle, wide) = (reciprocal.dot(&(at - place)) / TAU, within * reciprocal.norm() / TAU);
             *bound = ((middle - wide).ceil() as i32, (middle + wide).floor() as i32);
         }
@@ -111,7 +124,7 @@ impl Granules {
         for z in whole(2) {
             for y in whole(1) {
                 for x in whole(0) {
-                    let image: Vec3 = vectors.iter().zip([x, y, z]).map(|(vector, n)| f64::from(n) * vector).sum();
+                    let image: Vec3 = self.vectors.iter().zip([x, y, z]).map(|(vector, n)| f64::from(n) * vector).sum();
                     let from = at - place - image;
                     if from.norm() <= within {
                         each(&from);
