@@ -4,6 +4,7 @@
 //!   string, T = k(a − l₀)        across ∂ω/∂l₀ = −ω/2(a − l₀), along 0
 //!   affine granules              F = (4ks² − mω²)(κ + kl²c² − jω²) − 4k²l²s²c² = 0: ∂ω² = −F_p/F_{ω²}
 //!   dashpots c                   ∂ω/∂c = −δ²/cω, ∂ω/∂k = 2s²/mω
+//!   held across by k_y = k_z     of the two waves of one frequency ∂ω/∂k_y = 0 and 1/2mω
 //!   two bonds V₁(x), V₂(a − x)   V₁′ = V₂′ at rest, ∂x/∂p = −(∂V₁′ − ∂V₂′)/(V₁″ + V₂″)
 //!   Lennard-Jones, cell at rest  ω ∝ √(ε/m)/σ
 
@@ -64,6 +65,35 @@ fn a_string_feels_its_springs_masses_and_tension() {
     let case = case.by("−δ²/cω, 2s²/mω");
     case.check("damped, by k", 4.0 / damped, found[branch(&omega, damped)][0], TOLERANCE);
     case.check("damped, by c", -24.0 / damped, found[branch(&omega, damped)][1], TOLERANCE);
+}
+
+#[test]
+fn waves_of_one_frequency_part() {
+    let case =
+        Case { row: None, name: "derivatives of bands of masses held across", source: "0 and 1/2mω; ∓1/2mω" };
+    let scene = parse(
+        r#"
+        lattice = { cell = [[1, 0, 0]] }
+        constants = { k_y = "30 N/m", k_z = "30 N/m", k_yz = 0.0 }
+        [[body]]
+        name = "a"
+        shape = { points = [{ mass = 0.5, at = [0, 0, 0] }] }
+        potential = "0.5*k_y*y^2 + 0.5*k_z*z^2 + k_yz*y*z"
+        [[spring]]
+        between = ["a", "a"]
+        cell = [1, 0, 0]
+        stiffness = 40
+        rest_length = 1
+        "#,
+    );
+    let across = 60_f64.sqrt();
+    let (omega, found) = derivatives(&scene, &["constants.k_y", "constants.k_yz"], PI);
+    assert!(omega[..2].iter().all(|omega| (omega - across).abs() < 1e-12), "{omega:?}");
+    case.check("lower, by k_y", 0.0, found[0][0], TOLERANCE);
+    case.check("upper, by k_y", 1.0 / across, found[1][0], TOLERANCE);
+    // Whatever basis they have: y ± z.
+    case.check("lower, by the coupling", -1.0 / across, found[0][1], TOLERANCE);
+    case.check("upper, by the coupling", 1.0 / across, found[1][1], TOLERANCE);
 }
 
 #[test]
