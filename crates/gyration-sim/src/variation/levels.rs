@@ -57,7 +57,7 @@ impl VariationSteps {
         }
         let sizes = self.base.built().model.bodies.iter().map(|body| body.size);
         let least = sizes.fold(f64::INFINITY, f64::min);
-        if least.is_finite() { least } else { 1.0 }
+        if least.is_finite() && least > 0.0 { least } else { 1.0 }
     }
 
     /// The first step at which all neighbours are scenes.
