@@ -4,6 +4,7 @@
 //! are an orthonormal basis of the range of ∂(projection)/∂y, in these scales: what guides, joints and kept volumes
 //! leave, without the length of a quaternion and the turns of a point.
 
+use super::SWEEPS;
 use crate::adapter::ModelSystem;
 use crate::sensitivity::SCALES;
 use gyration::Inadmissible;
@@ -34,7 +35,7 @@ impl Chart {
         let n = model.dimension();
         let scales = scales(model, period);
         let frozen = frozen(model);
-        let mut chart = Self { system, scales, basis: DMatrix::zeros(0, 0) };
+        let mut chart = Self { system, scales, basis: DMatrix::zeros(n, 0) };
         let mut left = DMatrix::zeros(n, n);
         for column in (0..n).filter(|column| !frozen[*column]) {
             let beside = |chart: &mut Self, side: f64| {
@@ -46,9 +47,13 @@ impl Chart {
             let difference = beside(&mut chart, 1.0) - beside(&mut chart, -1.0);
             left.set_column(column, &(difference.component_div(&chart.scales) / (2.0 * PROBE)));
         }
-        let found = left.svd(true, false);
-        let kept: Vec<usize> = (0..n).filter(|k| found.singular_values[*k] > LEFT).collect();
-        chart.basis = found.u.map_or_else(|| DMatrix::zeros(n, 0), |u| u.select_columns(&kept));
+        // Of iterations that do not end nothing is left, as of what cannot move.
+        if let Some(found) = left.try_svd(true, false, f64::EPSILON, SWEEPS)
+            && let Some(u) = found.u
+        {
+            let kept: Vec<usize> = (0..n).filter(|k| found.singular_values[*k] > LEFT).collect();
+            chart.basis = u.select_columns(&kept);
+        }
         Ok(chart)
     }
 

@@ -21,7 +21,7 @@ use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{ImplicitOrder, Options};
-use nalgebra::{Complex, ComplexField as _, DMatrix, DVector};
+use nalgebra::{Complex, ComplexField as _, DMatrix, DVector, Schur};
 use std::cmp::Ordering;
 
 /// The tolerance of its runs, if that of the scene is not smaller.
@@ -41,6 +41,8 @@ const STABLE: f64 = 1e-6;
 const KEPT: f64 = 1e-4;
 /// A number that changes by less than this part of its scale stands still.
 const LEAST_SPAN: f64 = 1e-9;
+/// Sweeps of an iteration at most; a few for each row are the rule.
+const SWEEPS: usize = 10_000;
 /// A quantity is varied by this part of the scales.
 const PROBE: f64 = 1e-5;
 
@@ -96,6 +98,12 @@ pub enum NoOrbit {
     /// Something depends on time, and no period is given.
     #[error("something in the scene depends on time, and an orbit has the period of that: it must be given")]
     Driven,
+    /// No body can move.
+    #[error("nothing in the scene can move")]
+    NothingMoves,
+    /// Iterations of linear algebra do not end.
+    #[error("the {0} of a period cannot be computed")]
+    NotComputed(&'static str),
     /// The start does not come near itself within the time of the scene.
     #[error("within {end} s the motion does not come back near to its start")]
     NoReturn {
@@ -130,6 +138,9 @@ impl Orbit {
         choice: &Choice<'_>,
     ) -> Result<Self, NoOrbit> {
         let mut trial = Trial::of(model, plan, start.clone(), period)?;
+        if trial.gap.is_empty() {
+            return Err(NoOrbit::NothingMoves);
+        }
         let driven = trial.is_driven()?;
         if driven && !matches!(choice, Choice::Period) {
             return Err(NoOrbit::Driven);
@@ -153,7 +164,9 @@ impl Orbit {
         if trial.misfit > FOUND || off.abs() > FOUND {
             return Err(NoOrbit::NotFound { period: trial.period, misfit: trial.misfit.max(off.abs()) });
         }
-        let mut multipliers: Vec<Complex<f64>> = trial.derivative.complex_eigenvalues().iter().copied().collect();
+        let schur = Schur::try_new(trial.derivative, f64::EPSILON, SWEEPS);
+        let eigenvalues = schur.ok_or(NoOrbit::NotComputed("multipliers"))?.complex_eigenvalues();
+        let mut multipliers: Vec<Complex<f64>> = eigenvalues.iter().copied().collect();
         let order = |mu: &Complex<f64>| [mu.modulus(), mu.re, mu.im];
         multipliers.sort_by(|a, b| order(b).partial_cmp(&order(a)).unwrap_or(Ordering::Equal));
         let grows = |mu: &Complex<f64>| (mu - 1.0).modulus() > TRIVIAL && mu.modulus() > 1.0 + STABLE;
@@ -261,7 +274,7 @@ impl Trial {
                 right[d + 1] = -off;
             }
         }
-        let found = equations.svd(true, true);
+        let found = equations.try_svd(true, true, f64::EPSILON, SWEEPS).ok_or(NoOrbit::NotComputed("step"))?;
         let least = UNDETERMINED * found.singular_values.max();
         Ok(found.solve(&right, least).unwrap_or_else(|_| DVector::zeros(d + 1)))
     }
