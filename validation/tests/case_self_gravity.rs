@@ -1,7 +1,7 @@
 //! Homogeneous fluid under its own gravity, πGρ = 1: incompressible affine spheres of R = 1 without elasticity.
 //!
 //!   the sphere rings at ω² = 16/15, five-fold;   dust at rest falls together in t = (β + ½ sin 2β)/√(8/3), s = cos²β
-//!   turning with Ω: P̈ = −Ω² diag(1, 1, 0) P;    with a tide Ω² (3 e ⊗ e − 1) besides where a moon goes round once a turn
+//!   turning with Ω: P̈ = −Ω² diag(1, 1, 0) P;    with a tide Ω² (3 e ⊗ e − 1) where a moon goes round once a turn
 //!
 //! Figures are sought by P̈ as the program has it. It is affine in Ω², so that two evaluations tell what gravity does
 //! and what Ω² = 1 adds. References: `validation/oracles/self_gravity.py`.

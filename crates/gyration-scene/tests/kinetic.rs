@@ -51,7 +51,8 @@ fn other_kinetic_energies_are_read_and_go_with_a_constant_mass_alone() {
     for (lines, key, message, help) in cases {
         assert_error(&format!("{TIME}{BALL}{lines}\n"), &format!("body.ball.{key}"), message, help);
     }
-    let hinged = "affine = { kinetic = \"comoving\" }\n[[joint]]\nname = \"j\"\nbetween = [\"ball\", \"space\"]\nkind = \"ball\"\n";
+    let joint = "[[joint]]\nname = \"j\"\nbetween = [\"ball\", \"space\"]\nkind = \"ball\"\n";
+    let hinged = format!("affine = {{ kinetic = \"comoving\" }}\n{joint}");
     let text = format!("{TIME}{BALL}{}points = [[0, 0, 0], [0, 0, 1]]\n", hinged);
     let found = errors("scene.toml", &text, &[]);
     assert!(found.to_string().contains("a joint asks for bodies of the kinetic energy"), "{found}");

@@ -1,6 +1,6 @@
 //! What acts on a body from outside all bodies, and what joints do between two.
 //!
-//!   (f | M) = m g + Σ of planes, supports with a shape, anchors, joints to space, fluid, and what is written for the body
+//!   (f | M) = m g + Σ of planes, supports with a shape, anchors, joints to space, fluid, what a body has of its own
 //!
 //! M is about the centre of mass. With the exchanges between bodies and the joints between bodies it is all that acts,
 //! pins and guides aside. Source: `docs/fields.md`.
