@@ -12,7 +12,7 @@ pub struct FieldArguments {
     #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub recording: PathBuf,
     /// Standard deviation of the Gaussian with which bodies are seen from a point [m]
-    #[arg(long, value_name = "W")]
+    #[arg(long, value_name = "W", allow_negative_numbers = true)]
     pub width: f64,
     /// Points [m], x,y,z, with spaces between them
     #[arg(long, value_name = "POINTS", value_parser = points, allow_hyphen_values = true, conflicts_with = "grid")]

@@ -10,7 +10,7 @@ pub struct OrbitArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
     /// The period [s]; beside --energy or --amplitude one to begin with
-    #[arg(long, value_name = "T", value_parser = positive)]
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
     pub period: Option<f64>,
     /// The energy of the orbit [J]
     #[arg(long, value_name = "E", conflicts_with = "amplitude", allow_hyphen_values = true)]
