@@ -42,7 +42,6 @@ fn balances_close_in_scenes_of_all_kinds() {
         "cells",
         "contact-chain",
         "crawl",
-        "geodesic",
         "gripper",
         "jacobi-ellipsoid",
         "jeffery",
