@@ -5,7 +5,7 @@
 //!   ẍ + ω₀² x = F cos ωt             x₀ = F/(ω₀² − ω²), T = 2π/ω, μ = e^(±iω₀T)
 
 use gyration_scene::Scene;
-use gyration_sim::survey::{OrbitChoice, OrbitSurvey};
+use gyration_sim::orbit::{OrbitChoice, OrbitSurvey};
 use gyration_validation::{Case, largest};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;

@@ -6,7 +6,7 @@ use crate::input::ready;
 use crate::output;
 use crate::waiting::waiting;
 use gyration_sim::format::{significant, vector};
-use gyration_sim::survey::{OrbitChoice, OrbitSurvey};
+use gyration_sim::orbit::{OrbitChoice, OrbitSurvey};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 

@@ -8,8 +8,11 @@
 //! μ of a motion without losses come in pairs μ, 1/μ; two are one, and two more for each symmetry.
 
 mod chart;
+mod survey;
 #[cfg(test)]
 mod tests;
+
+pub use survey::{OrbitChoice, OrbitStart, OrbitSurvey};
 
 use crate::adapter::Tolerance;
 use crate::plan::RunPlan;

@@ -1,6 +1,6 @@
 //! Orbits: a point in a well with x⁴, by each choice; what is no orbit.
 
-use crate::survey::{OrbitChoice, OrbitSurvey};
+use super::{OrbitChoice, OrbitSurvey};
 use gyration_scene::Scene;
 use std::path::Path;
 

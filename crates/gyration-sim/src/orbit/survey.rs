@@ -1,6 +1,6 @@
 //! A periodic orbit of a scene, in a form to print.
 
-use crate::orbit::{Choice, NoOrbit, Orbit, energy};
+use super::{Choice, NoOrbit, Orbit, energy};
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
 use crate::sensitivity::Quantities;
