@@ -35,11 +35,8 @@ pub(crate) enum NoFlow {
 impl Flow {
     /// From a start at t = 0 to the end of a plan; directions as columns.
     pub fn of(model: &Model, start: &State, plan: &RunPlan, directions: &DMatrix<f64>) -> Result<Self, NoFlow> {
-        let plan = RunPlan { sample: plan.end, stop_at_rest: None, extras: Extras::default(), pairs: false, ..*plan };
-        let mut simulation = Simulation::together(model, start, plan)?;
+        let (plan, mut simulation, mut sink) = begun(model, start, plan)?;
         let mut tangent = Tangent::of_directions(model, start, &plan, directions)?;
-        let mut sink = MemorySink::default();
-        simulation.begin(&mut sink)?;
         loop {
             let before = simulation.partition.islands[0].integrator.time();
             let ended = simulation.advance(&mut sink, &mut Unwatched)?;
@@ -67,6 +64,15 @@ impl Flow {
     }
 }
 
+/// A run of all bodies together to the end of a plan, of which nothing but the end is recorded.
+fn begun(model: &Model, start: &State, plan: &RunPlan) -> Result<(RunPlan, Simulation, MemorySink), RunError> {
+    let plan = RunPlan { sample: plan.end, stop_at_rest: None, extras: Extras::default(), pairs: false, ..*plan };
+    let mut simulation = Simulation::together(model, start, plan)?;
+    let mut sink = MemorySink::default();
+    simulation.begin(&mut sink)?;
+    Ok((plan, simulation, sink))
+}
+
 /// So many places of each step are looked at.
 const LOOKED_AT: usize = 16;
 
@@ -80,10 +86,7 @@ pub(crate) fn each_state(
     plan: &RunPlan,
     mut each: impl FnMut(&State),
 ) -> Result<(), RunError> {
-    let plan = RunPlan { sample: plan.end, stop_at_rest: None, extras: Extras::default(), pairs: false, ..*plan };
-    let mut simulation = Simulation::together(model, start, plan)?;
-    let mut sink = MemorySink::default();
-    simulation.begin(&mut sink)?;
+    let (plan, mut simulation, mut sink) = begun(model, start, plan)?;
     let mut state = start.clone();
     state.low.clear();
     loop {
