@@ -1,7 +1,7 @@
 //! Throws of a die: how many a second, against the part of final faces that change when rtol is tightened tenfold.
 //!
-//!     cargo bench -p gyration-bench --bench throws -- 0.03 5e-4 1000 1e-4 1e-5 …     rest gap, damping, throws, tolerances
-//!     cargo bench -p gyration-bench --bench throws -- growth 0.03 5e-4 100 1e-12     how a disturbance of the start grows
+//!     cargo bench -p gyration-bench --bench throws -- 0.03 5e-4 1000 1e-4 1e-5 …     gap, damping, throws, tolerances
+//!     cargo bench -p gyration-bench --bench throws -- growth 0.03 5e-4 100 1e-12     how a disturbance grows
 //!
 //! A throw is a run like any other, to rest, of which nothing is stored. One thread; seconds are those of the
 //! processor.

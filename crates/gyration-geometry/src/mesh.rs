@@ -79,8 +79,8 @@ pub enum MeshError {
 /// `scale` multiplies the coordinates, 1e-3 for a file in millimetres.
 ///
 /// # Errors
-/// [`MeshError`]: a file that cannot be read or is not as its format says (with the line or the byte), and triangles that are
-/// not closed, not oriented, inward or without a volume (with the first edges concerned).
+/// [`MeshError`]: a file that cannot be read or is not as its format says (with the line or the byte), and triangles
+/// that are not closed, not oriented, inward or without a volume (with the first edges concerned).
 pub fn read_mesh(path: &Path, scale: f64) -> Result<Polyhedron, MeshError> {
     check_scale(path, scale)?;
     let parse = parser(path)?;

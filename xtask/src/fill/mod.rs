@@ -14,7 +14,7 @@ use std::process::{Command, ExitCode};
 const PAGES: [&str; 2] = ["ARCHITECTURE.md", "CONTRIBUTING.md"];
 
 /// How many lines of code, equations and tables, which are not filled, may still be wider; to be lowered as they go.
-const WIDE: usize = 124;
+const WIDE: usize = 120;
 
 /// Fills the files named, or all.
 pub fn run(names: &[&str]) -> ExitCode {

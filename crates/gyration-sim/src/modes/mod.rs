@@ -130,8 +130,8 @@ pub enum NoRest {
     ActedOn,
     /// The search came to no end.
     #[error(
-        "no rest state was found in {steps} steps from the start: accelerations of up to {acceleration:.2e} (m/s², 1/s²) are \
-         left; a couple or a load without potential may turn the body for ever"
+        "no rest state was found in {steps} steps from the start: accelerations of up to {acceleration:.2e} (m/s², \
+         1/s²) are left; a couple or a load without potential may turn the body for ever"
     )]
     NotFound {
         /// Steps taken.
