@@ -122,7 +122,7 @@ impl Steps {
     }
 
     /// Prints what everything took, what was skipped, what is wrong and, last, the sums; true if all is well and
-    /// something was run.
+    /// something was run. What is wrong stands in the last line as well: of a long log often nothing else is kept.
     pub fn conclude(&self) -> bool {
         print!("\n{}", self.report.text());
         for reason in &self.skipped {
@@ -131,8 +131,16 @@ impl Steps {
         for reason in &self.complaints {
             println!("failed: {reason}");
         }
-        println!("{} passed, {} failed", self.tally.passed, self.tally.failed);
+        println!("{}", self.sums());
         self.all_is_well()
+    }
+
+    /// How much passed and failed, and what.
+    fn sums(&self) -> String {
+        let sums = format!("{} passed, {} failed", self.tally.passed, self.tally.failed);
+        let wrong = self.complaints.iter().map(|reason| reason.lines().next().unwrap_or_default());
+        let wrong: Vec<_> = wrong.collect();
+        if wrong.is_empty() { sums } else { format!("{sums}: {}", wrong.join("; ")) }
     }
 
     /// Whether nothing is wrong so far.
