@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::legend::Legend;
-use crate::draw::{Point, Stroke, color};
+use crate::draw::{Color, Point, Stroke, color};
 
 /// A line through values.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,8 @@ pub const DASHED: &[f64] = &[5.0, 2.5];
 pub const DOTTED: &[f64] = &[1.5, 2.0];
 /// Dashes of the fourth style of lines [pt].
 pub const DASH_DOTTED: &[f64] = &[6.0, 2.0, 1.5, 2.0];
+/// Width of the samples of areas in legends [pt].
+const SWATCH: f64 = 7.0;
 
 impl Series {
     /// A solid line in the colour of this index.
@@ -41,6 +43,18 @@ impl Series {
     pub fn level(name: impl Into<String>, y: f64, axis: &Axis) -> Self {
         let stroke = Stroke { color: color::GREY, width: 0.9, dash: DASHED };
         Self { name: name.into(), points: vec![[axis.low, y], [axis.high, y]], stroke, arrows: false }
+    }
+}
+
+impl Series {
+    /// The entry of an area or of dots in a legend.
+    pub fn swatch(name: impl Into<String>, color: Color) -> Self {
+        Self { name: name.into(), points: Vec::new(), stroke: Stroke::solid(color, SWATCH), arrows: false }
+    }
+
+    /// The entry of a legend that says what the next ones are.
+    pub fn heading(name: impl Into<String>) -> Self {
+        Self::swatch(name, Color { rgb: [0xFF; 3], opacity: 0.0 })
     }
 }
 

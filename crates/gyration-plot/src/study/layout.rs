@@ -7,18 +7,6 @@ use crate::figure::Panel;
 
 /// Height of the frame of a chart [pt].
 pub const HEIGHT: f64 = 240.0;
-/// Width of the samples of areas in legends [pt].
-const SWATCH: f64 = 7.0;
-
-/// The entry of an area or of dots in a legend.
-pub fn swatch(name: impl Into<String>, color: Color) -> Series {
-    Series { name: name.into(), points: Vec::new(), stroke: Stroke::solid(color, SWATCH), arrows: false }
-}
-
-/// The entry of a legend that says what the next ones are.
-pub fn heading(name: impl Into<String>) -> Series {
-    swatch(name, Color { rgb: [0xFF; 3], opacity: 0.0 })
-}
 
 /// The remark on what a logarithmic scale leaves out.
 pub fn left_out(count: usize) -> Vec<String> {
@@ -47,7 +35,7 @@ impl Layers {
             } else {
                 let dots = |radius: f64, fill: Color| Shapes::Dots { at: reference.points.clone(), radius, fill };
                 self.shapes.extend([dots(4.4, color::WHITE), dots(3.4, ink)]);
-                self.series.push(swatch(reference.name.clone(), ink));
+                self.series.push(Series::swatch(reference.name.clone(), ink));
             }
         }
     }

@@ -4,11 +4,11 @@
 //! most frequent word is shown, or the mean of the numbers; of a list it is the change from its first number to its
 //! last.
 
-use super::layout::{Layers, heading, left_out, swatch};
-use super::palette::{self, Palette};
+use super::layout::{Layers, left_out};
+use super::palette;
 use super::request::{Ordinate, PlotRequest};
 use super::table::{ColumnValues, Role, RunTable, TableColumn};
-use crate::chart::{Axis, AxisScale, Shapes};
+use crate::chart::{Axis, AxisScale, Palette, Series, Shapes};
 use crate::draw::Point;
 use crate::error::PlotError;
 use crate::figure::Panel;
@@ -33,7 +33,7 @@ pub fn panel(table: &RunTable, request: &PlotRequest) -> Result<Panel, PlotError
     let mut of_numbers = |values: &[f64]| -> Result<Layers, PlotError> {
         let means = means(&cells, values);
         let shown: Vec<f64> = means.iter().flatten().copied().collect();
-        let palette = Palette::requested(request, column, name, &shown)?;
+        let palette = palette::requested(request, column, name, &shown)?;
         without = means.iter().flatten().filter(|mean| palette.shade(**mean).is_none()).count();
         Ok(of_numbers(&cells, &means, &palette))
     };
@@ -146,8 +146,8 @@ fn of_words(cells: &[MapCell], title: &str, names: &[String], words: &[Option<St
     };
     let areas = areas(cells, cells.iter().map(most_frequent));
     let shapes = |(index, corners)| Shapes::Areas { corners, fill: palette::category(index) };
-    let entry = |(index, name): (usize, &String)| swatch(name.clone(), palette::category(index));
-    let legend = std::iter::once(heading(title)).chain(names.iter().enumerate().map(entry));
+    let entry = |(index, name): (usize, &String)| Series::swatch(name.clone(), palette::category(index));
+    let legend = std::iter::once(Series::heading(title)).chain(names.iter().enumerate().map(entry));
     Layers { shapes: areas.into_iter().map(shapes).collect(), series: legend.collect() }
 }
 

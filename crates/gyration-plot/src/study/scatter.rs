@@ -1,10 +1,10 @@
 //! A dot a run, or as many as its list is long: what depends on chance, and bifurcation diagrams.
 
-use super::layout::{HEIGHT, Layers, heading, left_out, swatch};
-use super::palette::{self, Palette, with_logarithms};
+use super::layout::{HEIGHT, Layers, left_out};
+use super::palette::{self, with_logarithms};
 use super::request::{Ordinate, PlotRequest};
 use super::table::{ColumnValues, Role, RunTable, TableColumn};
-use crate::chart::{Axis, AxisScale, Shapes};
+use crate::chart::{Axis, AxisScale, Series, Shapes};
 use crate::draw::{Point, color};
 use crate::error::PlotError;
 use crate::figure::Panel;
@@ -86,12 +86,12 @@ fn coloured(
                 }
             }
             let shapes = |(index, at)| Shapes::Dots { at, radius, fill: palette::category(index) };
-            let entry = |(index, name): (usize, &String)| swatch(name.clone(), palette::category(index));
-            let legend = std::iter::once(heading(&column.name)).chain(names.iter().enumerate().map(entry));
+            let entry = |(index, name): (usize, &String)| Series::swatch(name.clone(), palette::category(index));
+            let legend = std::iter::once(Series::heading(&column.name)).chain(names.iter().enumerate().map(entry));
             Ok(Layers { shapes: dots.into_iter().map(shapes).collect(), series: legend.collect() })
         }
         ColumnValues::Numbers(values) => {
-            let palette = Palette::requested(request, column, &column.name, values)?;
+            let palette = palette::requested(request, column, &column.name, values)?;
             for (run, point) in points {
                 if let Some(shade) = palette.shade(values[*run]) {
                     dots.entry(shade).or_default().push(*point);
