@@ -56,6 +56,13 @@ fn fields_are_told_in_words_in_json_and_in_files() {
     let list = std::fs::read_to_string(sandbox.path("seen.pvd")).unwrap();
     assert_eq!(list.matches("seen-vti/fields-").count(), 3);
     assert!(sandbox.path("seen-vti/fields-000002.vti").exists());
+    for (grid, panels) in [("9,5,1", 3), ("9,1,1", 3)] {
+        sandbox.done(&["fields", "balls.gyr", "--width", "0.1", "--grid", grid, "--plot", "seen.svg"]);
+        let picture = std::fs::read_to_string(sandbox.path("seen.svg")).unwrap();
+        let told = ["density", "speed", "pressure", "shear stress"].iter().filter(|name| picture.contains(**name));
+        assert!(told.count() > panels, "{grid}");
+    }
+    sandbox.refused(2, &["fields", "balls.gyr", "--width", "0.1", "--at", "0,0,0", "--plot", "seen.svg"]);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Pictures: of recordings, of contact laws, of bands, of the tables of studies, of fits to measurements.
+//! Pictures: of recordings, of contact laws, of bands, of fields, of the tables of studies, of fits to measurements.
 //!
 //! ```text
 //! recording, scene → show (which quantities) → figure: charts and strips (how they are laid out)
@@ -23,6 +23,7 @@ mod chart;
 mod cycle;
 mod draw;
 mod error;
+mod fields;
 mod figure;
 mod recorded;
 mod show;
@@ -35,6 +36,7 @@ mod thin;
 pub use bands::{bands, continuum};
 pub use draw::{Film, FilmFrame, Format};
 pub use error::PlotError;
+pub use fields::fields;
 pub use figure::Figure;
 pub use recorded::TimeSpan;
 pub use show::{Asked, OVERVIEW, PlotQuantity, bodies_at, laws, leave_overview, of_recording};

@@ -29,6 +29,9 @@ pub struct FieldArguments {
     /// Write the grid for ParaView, FILE.vti; of several samples FILE.pvd lists all
     #[arg(short, long, value_name = "FILE.vti", value_hint = ValueHint::FilePath, conflicts_with = "at")]
     pub output: Option<PathBuf>,
+    /// Draw the last sample on the grid: density, speed, pressure, shear stress, power of pairs (.svg, .png, .pdf)
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "at")]
+    pub plot: Option<PathBuf>,
 }
 
 /// Points [m].

@@ -1,6 +1,7 @@
 //! `gyration fields`: micromorphic fields of a recording.
 
 use super::export::explain;
+use super::picture;
 use crate::arguments::FieldArguments;
 use crate::error::{CliError, code};
 use crate::output;
@@ -13,7 +14,7 @@ use gyration_sim::{FieldPoints, FieldSurvey, NoFields};
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// So many points are printed one by one.
 const SHOWN: usize = 40;
@@ -29,6 +30,9 @@ pub fn execute(arguments: &FieldArguments) -> Result<u8, CliError> {
     let reading = format!("averaging {}", arguments.recording.display());
     let found = waiting(reading, true, || FieldSurvey::of(&recording, arguments.width, &points, arguments.every.get()));
     let found = found.map_err(|error| refused(&recording, error))?;
+    if let Some(path) = &arguments.plot {
+        draw(&recording, &found, path)?;
+    }
     match &arguments.output {
         Some(path) => write(&found, path)?,
         None if arguments.json => output::print(&format!("{}\n", serde_json::json!(found)))?,
@@ -81,6 +85,15 @@ fn write(found: &FieldSurvey, path: &Path) -> Result<(), CliError> {
     Ok(())
 }
 
+/// The picture of the last sample.
+fn draw(recording: &Recording, found: &FieldSurvey, path: &Path) -> Result<(), CliError> {
+    let format = picture::format(Some(path))?;
+    let Some(figure) = gyration_plot::fields(recording, found) else {
+        return Err(CliError::arguments("the recording has no samples", "run the scene further"));
+    };
+    picture::write(&figure, Some(path), format, PathBuf::new).map(drop)
+}
+
 fn write_sample(found: &FieldSurvey, sample: usize, path: &Path) -> Result<(), CliError> {
     // Points that stand alone are refused beside -o.
     let Some(image) = found.image(sample) else { return Ok(()) };
@@ -118,7 +131,7 @@ fn write_samples(text: &mut String, found: &FieldSurvey) -> std::fmt::Result {
         let columns = [
             *time,
             most(|it| it.density),
-            most(speed),
+            most(LocalFields::speed),
             most(|it| it.stress.amax()),
             most(|it| it.micro_stress.amax()),
             most(|it| it.contact_stress.amax()),
@@ -150,11 +163,6 @@ fn write_points(text: &mut String, found: &FieldSurvey) -> std::fmt::Result {
         writeln!(text, "  power of pairs   {} W/m³", significant(fields.power, 6))?;
     }
     Ok(())
-}
-
-/// j/ρ; none where nothing is.
-fn speed(fields: &LocalFields) -> f64 {
-    if fields.density > 0.0 { fields.momentum.norm() / fields.density } else { 0.0 }
 }
 
 /// What is left of the balances of momentum and of affine momentum, as parts of their largest terms.

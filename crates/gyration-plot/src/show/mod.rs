@@ -171,17 +171,22 @@ fn overview(recorded: &RecordedScene) -> Result<Vec<Panel>, PlotError> {
 
 /// A figure of a recording under its title and outcome.
 fn figure(recorded: &RecordedScene, panels: Vec<Panel>) -> Figure {
-    let text = |name: &str| {
-        let attribute = recorded.recording.attributes().get(name);
-        attribute.and_then(serde_json::Value::as_str).unwrap_or_default().to_owned()
+    let subtitle = match word(recorded.recording, "outcome_in_words") {
+        "" => "not finished".to_owned(),
+        outcome => outcome.to_owned(),
     };
-    let title = match text("title") {
-        title if title.is_empty() => text("scene_name"),
+    Figure { title: title(recorded.recording).to_owned(), subtitle, panels }
+}
+
+/// The title of the scene of a recording, else its name.
+pub fn title(recording: &Recording) -> &str {
+    match word(recording, "title") {
+        "" => word(recording, "scene_name"),
         title => title,
-    };
-    let subtitle = match text("outcome_in_words") {
-        outcome if outcome.is_empty() => "not finished".to_owned(),
-        outcome => outcome,
-    };
-    Figure { title, subtitle, panels }
+    }
+}
+
+/// An attribute of words; empty where there is none.
+fn word<'a>(recording: &'a Recording, name: &str) -> &'a str {
+    recording.attributes().get(name).and_then(serde_json::Value::as_str).unwrap_or_default()
 }

@@ -51,6 +51,13 @@ pub struct LocalFields {
     pub scales: [f64; 2],
 }
 
+impl LocalFields {
+    /// |j|/ρ \[m/s\]; zero where nothing is.
+    pub fn speed(&self) -> f64 {
+        if self.density > 0.0 { self.momentum.norm() / self.density } else { 0.0 }
+    }
+}
+
 impl Granules {
     /// The fields at a point \[m\].
     pub fn fields(&self, at: &Vec3, weight: &Weight) -> LocalFields {
