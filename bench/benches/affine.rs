@@ -7,7 +7,7 @@ use gyration::dynamics::jacobian;
 use gyration::dynamics::{Workspace, rates};
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_bench::soft::{MATERIALS, contracting_cube, cube_over_table, free_cube, material};
+use gyration_benchmark::soft::{MATERIALS, contracting_cube, cube_over_table, free_cube, material};
 use nalgebra::DMatrix;
 
 fn main() {

@@ -8,7 +8,7 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use gyration_bench::crowd::{self, Throws};
+use gyration_benchmark::crowd::{self, Throws};
 use gyration_scene::Scene;
 use gyration_sim::{MemorySink, RunPlan, Simulation, Unwatched};
 use std::num::NonZeroUsize;

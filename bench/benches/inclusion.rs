@@ -12,7 +12,7 @@ use gyration::kinematics::{Placement, Velocity};
 use gyration::load::LoadSlopes;
 use gyration::signal::Signal;
 use gyration::tensor::{Mat3, Vec3};
-use gyration_bench::particle_in_shear;
+use gyration_benchmark::particle_in_shear;
 use gyration_ode::{Integrator, Options};
 use gyration_sim::Tolerance;
 use gyration_sim::adapter::ModelSystem;

@@ -8,7 +8,7 @@ use gyration::dynamics::{Workspace, jacobian, rates};
 use gyration::state::Turn;
 use gyration::surface::{GapClosed, GapField, Kernel, MomentPlan, MomentRequest, Moments, OrientedMoments, Surface};
 use gyration::tensor::Mat3;
-use gyration_bench::{SHAPES, near_table};
+use gyration_benchmark::{SHAPES, near_table};
 use nalgebra::DMatrix;
 
 fn main() {

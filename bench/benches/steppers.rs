@@ -11,7 +11,7 @@
 
 use gyration::dynamics::jacobian;
 use gyration::dynamics::{Workspace, rates};
-use gyration_bench::{SHAPES, near_table, seconds_each};
+use gyration_benchmark::{SHAPES, near_table, seconds_each};
 use gyration_ode::{BlockMatrix, Components, ImplicitOrder, Integrator, Method, Options, Pattern, System};
 use nalgebra::DMatrix;
 use std::convert::Infallible;

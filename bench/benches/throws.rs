@@ -8,8 +8,8 @@
 #![allow(clippy::expect_used, reason = "a benchmark that cannot go on has failed")]
 
 use gyration::state::State;
-use gyration_bench::die::{BETA, Die, SIDE};
-use gyration_bench::processor_seconds;
+use gyration_benchmark::die::{BETA, Die, SIDE};
+use gyration_benchmark::processor_seconds;
 use gyration_ode::Statistics;
 use gyration_sim::{MemorySink, Outcome, Simulation, Unwatched};
 

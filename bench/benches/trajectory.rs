@@ -10,8 +10,8 @@
 
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_bench::near_table;
-use gyration_bench::soft::{cube_over_table, material};
+use gyration_benchmark::near_table;
+use gyration_benchmark::soft::{cube_over_table, material};
 use gyration_ode::{ImplicitOrder, Integrator, Method, Options};
 use gyration_sim::adapter::ModelSystem;
 use gyration_sim::rows::Extras;

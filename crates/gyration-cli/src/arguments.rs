@@ -1,10 +1,12 @@
 //! What may be written after `gyration`.
 
 mod bands;
+mod bench;
 mod fields;
 mod orbit;
 
 pub use bands::Bands;
+pub use bench::BenchArguments;
 pub use fields::FieldArguments;
 pub use orbit::OrbitArguments;
 
@@ -84,6 +86,8 @@ pub enum Command {
     /// Find numbers of a scene, as α, β, ν of its contact laws, from measurements
     #[cfg(feature = "study")]
     Calibrate(Calibrate),
+    /// Measure how fast this machine runs throws, cubes and crowds, each beside its floor
+    Bench(BenchArguments),
     /// Print the JSON Schema of a scene, a study or a file of measurements
     Schema {
         /// Of which files

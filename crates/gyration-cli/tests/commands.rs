@@ -401,3 +401,21 @@ fn a_title_tells_a_terminal_nothing_but_letters() {
     let said = sandbox.refused(2, &["check", "named.toml"]);
     assert!(said.stderr.contains("is not a name") && !said.stderr.contains('\u{1b}'), "{:?}", said.stderr);
 }
+
+#[test]
+fn a_machine_is_measured_row_by_row() {
+    let sandbox = Sandbox::new();
+    let said = sandbox.done(&["bench", "--quick", "--json", "--plot", "floors.svg"]).stdout;
+    let found: serde_json::Value = serde_json::from_str(&said).unwrap();
+    let rows = found["rows"].as_array().unwrap();
+    let key = |row: &serde_json::Value| row["key"].as_str().unwrap().to_owned();
+    let keys: Vec<String> = rows.iter().map(key).collect();
+    for wanted in ["rates/box", "jacobian/box", "pair/boxes", "throw", "cube/rigid", "cube/affine", "free-cube"] {
+        assert!(keys.contains(&wanted.to_owned()), "{wanted}: {keys:?}");
+    }
+    for row in rows {
+        assert!(row["seconds"].as_f64().unwrap() > 0.0, "{row}");
+    }
+    assert!(found["machine"]["arithmetic"]["operations"].as_f64().unwrap() > 1e6);
+    assert!(std::fs::read_to_string(sandbox.path("floors.svg")).unwrap().contains("times its floor"));
+}

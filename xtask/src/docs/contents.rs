@@ -16,7 +16,7 @@ const PARTS: [(&str, &[&str]); 7] = [
         "Begin",
         &["docs/README.md", "docs/gallery.md", "docs/viewing.md", "docs/recipes.md", "docs/check-any-simulator.md"],
     ),
-    ("Scenes", &["docs/scene-reference.md", "docs/robots.md", "docs/crowds.md", "docs/exit-codes.md"]),
+    ("Scenes", &["docs/scene-reference.md", "docs/robots.md", "docs/crowds.md", "docs/bench.md", "docs/exit-codes.md"]),
     (
         "Results",
         &[

@@ -1,6 +1,7 @@
 //! The commands, a file each.
 
 mod bands;
+mod bench;
 #[cfg(feature = "study")]
 mod calibrate;
 mod check;
@@ -41,6 +42,7 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::Check(arguments) => check::execute(&arguments),
         Command::Modes(arguments) => modes::execute(&arguments),
         Command::Bands(arguments) => bands::execute(&arguments),
+        Command::Bench(arguments) => bench::execute(&arguments),
         Command::Continuum(arguments) => continuum::execute(&arguments),
         Command::Fields(arguments) => fields::execute(&arguments),
         Command::Orbit(arguments) => orbit::execute(&arguments),

@@ -79,7 +79,7 @@ pub fn contracting_cube(material: Material) -> (Model, State) {
     });
     let model = Model::new(gravity, supports, bodies);
     let contraction = Mat3::new(1.1, 0.05, 0.0, 0.0, 0.9, 0.1, -0.05, 0.0, 1.0);
-    let contraction = contraction / contraction.determinant().cbrt();
+    let contraction = contraction / libm::cbrt(contraction.determinant());
     let mut state = State { works: vec![0.0; model.works().len()], ..state };
     state.bodies = motion.into_iter().chain(contraction.iter().copied()).collect();
     (model, state)

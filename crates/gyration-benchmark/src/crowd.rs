@@ -78,3 +78,19 @@ pub fn scene(count: usize, throws: Throws, end: f64) -> Scene {
     let read = Scene::parse("crowd.toml", &text(count, throws, end), Path::new(""), &[]);
     read.unwrap_or_else(|errors| panic!("{errors}"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{gas, heap};
+
+    #[test]
+    fn crowds_begin_apart() {
+        for scene in [scene(9, Throws::Different, 0.1), gas::scene(30, 0.1), heap::scene(9, 0.1)] {
+            let built = scene.built();
+            assert!(gyration_sim::Simulation::new(&built.model, &built.state, built.into()).is_ok());
+        }
+        let count = |scene: Scene| scene.built().model.bodies.len();
+        assert_eq!([count(gas::scene(30, 0.1)), count(heap::scene(9, 0.1))], [30, 9]);
+    }
+}
