@@ -14,8 +14,8 @@ pub fn processor_seconds() -> f64 {
     nanoseconds.map_or_else(|| begin.elapsed().as_secs_f64(), |count| 1e-9 * count)
 }
 
-/// The processor time of one call \[s\]: the fastest of five batches, each long enough for the clock, which may tick only
-/// every few milliseconds.
+/// The processor time of one call \[s\]: the fastest of five batches, each long enough for the clock, which may tick
+/// only every few milliseconds.
 pub fn seconds_each(work: impl FnMut()) -> f64 {
     seconds_in_batches(0.2, work)
 }

@@ -23,4 +23,16 @@ pub mod soft;
 pub use arithmetic::Arithmetic;
 pub use clock::{processor_seconds, seconds_each};
 pub use near::{SHAPES, near_table, particle_in_shear};
-pub use row::{BenchmarkRow, Floor, Size, measure};
+pub use row::{BenchmarkRow, Floor, Size};
+
+/// Measures all rows, telling each as soon as it is known; returns them.
+pub fn measure(arithmetic: &Arithmetic, size: Size, mut tell: impl FnMut(&BenchmarkRow)) -> Vec<BenchmarkRow> {
+    let mut rows = Vec::new();
+    let mut add = |row: BenchmarkRow| {
+        tell(&row);
+        rows.push(row);
+    };
+    kernels::rows(arithmetic, size, &mut add);
+    runs::rows(arithmetic, size, &mut add);
+    rows
+}

@@ -1,7 +1,5 @@
-//! The rows of `gyration bench`.
+//! A row of `gyration bench`.
 
-use crate::arithmetic::Arithmetic;
-use crate::{kernels, runs};
 use serde::Serialize;
 
 /// How much is measured.
@@ -42,18 +40,6 @@ impl BenchmarkRow {
     pub fn ratio(&self) -> Option<f64> {
         self.floor.as_ref().map(|floor| self.seconds / floor.seconds)
     }
-}
-
-/// Measures all rows, telling each as soon as it is known; returns them.
-pub fn measure(arithmetic: &Arithmetic, size: Size, mut tell: impl FnMut(&BenchmarkRow)) -> Vec<BenchmarkRow> {
-    let mut rows = Vec::new();
-    let mut add = |row: BenchmarkRow| {
-        tell(&row);
-        rows.push(row);
-    };
-    kernels::rows(arithmetic, size, &mut add);
-    runs::rows(arithmetic, size, &mut add);
-    rows
 }
 
 #[cfg(test)]

@@ -6,8 +6,7 @@ use crate::chart::Palette;
 use crate::draw::{Color, color};
 use crate::error::PlotError;
 
-/// The palette of values in the unit of a column, evenly or by logarithms as is asked for; `name` stands in the
-/// legend.
+/// The palette of values in the unit of a column, evenly or by logarithms as is asked for; `name` stands in the legend.
 ///
 /// # Errors
 /// [`PlotError::Arguments`] if they are to be logarithmic, and none is above zero.
