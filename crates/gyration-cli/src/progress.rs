@@ -55,6 +55,7 @@ impl Terminal {
     }
 
     /// Whether Ctrl-C has come.
+    #[cfg(feature = "study")]
     pub fn is_interrupted(&self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
     }
