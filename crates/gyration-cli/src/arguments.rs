@@ -4,11 +4,13 @@ mod bands;
 mod bench;
 mod fields;
 mod orbit;
+mod spectrum;
 
 pub use bands::Bands;
 pub use bench::BenchArguments;
 pub use fields::FieldArguments;
 pub use orbit::OrbitArguments;
+pub use spectrum::SpectrumArguments;
 
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -59,6 +61,8 @@ pub enum Command {
     Continuum(ContinuumArguments),
     /// Print micromorphic fields of a recording: density, momenta, stresses, and how well their balances close
     Fields(FieldArguments),
+    /// Print how much energy of a ring is in each wave of its cell, with measured frequencies and widths
+    Spectrum(SpectrumArguments),
     /// Print a motion that repeats itself: period, start, multipliers, whether it is stable
     Orbit(OrbitArguments),
     /// Print the resistance of bodies in a viscous fluid: the matrix from velocity and velocity gradient to force and

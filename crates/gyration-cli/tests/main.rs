@@ -21,6 +21,7 @@ mod remarks;
 mod resistance;
 mod resume;
 mod run;
+mod spectrum;
 #[cfg(feature = "study")]
 mod study;
 #[cfg(feature = "study")]

@@ -29,6 +29,7 @@ mod floors;
 mod recorded;
 mod show;
 mod solids;
+mod spectrum;
 mod strip;
 #[cfg(feature = "study")]
 pub mod study;
@@ -42,3 +43,4 @@ pub use figure::Figure;
 pub use floors::{FloorBar, floors};
 pub use recorded::TimeSpan;
 pub use show::{Asked, OVERVIEW, PlotQuantity, bodies_at, laws, leave_overview, of_recording};
+pub use spectrum::spectrum;

@@ -24,6 +24,7 @@ const PARTS: [(&str, &[&str]); 7] = [
             "docs/recipes-recordings.md",
             "docs/exports.md",
             "docs/fields.md",
+            "docs/spectrum.md",
             "docs/sensitivities.md",
         ],
     ),

@@ -22,6 +22,7 @@ mod resistance;
 mod run;
 mod scenes;
 mod schema;
+mod spectrum;
 #[cfg(feature = "study")]
 mod study;
 #[cfg(feature = "view")]
@@ -45,6 +46,7 @@ pub fn execute(command: Command) -> Result<u8, CliError> {
         Command::Bench(arguments) => bench::execute(&arguments),
         Command::Continuum(arguments) => continuum::execute(&arguments),
         Command::Fields(arguments) => fields::execute(&arguments),
+        Command::Spectrum(arguments) => spectrum::execute(&arguments),
         Command::Orbit(arguments) => orbit::execute(&arguments),
         Command::Resistance(arguments) => resistance::execute(&arguments),
         Command::Scenes(arguments) => scenes::execute(&arguments),

@@ -89,7 +89,7 @@ impl SystemCoordinates {
     }
 
     /// y of what a motion has within the joints.
-    fn within(&self, z: DVector<f64>) -> DVector<f64> {
+    pub fn within(&self, z: DVector<f64>) -> DVector<f64> {
         match &self.tangent {
             None => z,
             Some(tangent) => tangent.along(&z),

@@ -31,6 +31,7 @@ use gyration::model::Model;
 use gyration::state::{RigidStart, Start, State};
 use gyration::tensor::{Mat3, Vec3, axial};
 use gyration_record::Recording;
+use gyration_scene::Scene;
 use nalgebra::{Rotation3, UnitQuaternion};
 use std::sync::Arc;
 use window::{Window, WindowRow};
@@ -53,11 +54,15 @@ impl Replay {
     /// # Errors
     /// `NoScene`, `Scene` (a mesh or a table may have moved), `OtherBody` (or have changed), `Record`.
     pub fn open(recording: &Recording) -> Result<Self, ReplayError> {
-        let scene = rebuild::scene(recording)?;
+        Ok(Self::of(recording, &rebuild::scene(recording)?))
+    }
+
+    /// Of a recording and its scene, as `scene` has built it again.
+    pub(crate) fn of(recording: &Recording, scene: &Scene) -> Self {
         let (model, periods) = (scene.built().model.clone(), scene.built().periods());
         // Those of a lattice span a cell.
         let periods = Lattice::new(periods).unwrap_or_default();
-        Ok(Self { model, periods, window: Window::new(recording), workspace: Workspace::default() })
+        Self { model, periods, window: Window::new(recording), workspace: Workspace::default() }
     }
 
     /// The model.

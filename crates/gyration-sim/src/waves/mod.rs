@@ -7,6 +7,7 @@
 //! one; κ and −κ are different waves, and zero modes none.
 
 mod exponential;
+mod logarithm;
 mod passing;
 
 use crate::modes::Rest;
@@ -21,6 +22,7 @@ use gyration_scene::{NoWave, Packet, StartingWave, Uniform, WaveStart};
 use gyration_threads::Interruption;
 use nalgebra::{Complex, ComplexField, Matrix3, Vector3};
 
+pub(crate) use logarithm::logarithm;
 pub use passing::{Passing, PassingWaves};
 
 type C64 = Complex<f64>;
@@ -28,7 +30,7 @@ type C64 = Complex<f64>;
 /// The most bodies of a cell whose waves are found: the matrices have the square of them.
 const MOST_BODIES: usize = 300;
 /// The largest |A| of a small motion.
-const LARGEST: f64 = 1.0;
+pub(crate) const LARGEST: f64 = 1.0;
 /// Coordinates within this part of the fastest are as fast: rounding does not choose.
 const AS_FAST: f64 = 1e-6;
 
@@ -103,33 +105,17 @@ struct Moved<'a> {
 
 impl<'a> Moved<'a> {
     fn new(asked: &'a WaveStart, cell: &'a Model, waves: &'a LatticeWaves) -> Self {
-        let zero = Displaced {
-            translation: Vec3::zeros(),
-            spread: Mat3::zeros(),
-            velocity: Vec3::zeros(),
-            spread_rate: Mat3::zeros(),
-        };
         let cells = count(&asked.repeat);
         let kinds = cell.bodies.len() / count(&asked.unit);
-        Self { asked, cell, waves, bodies: vec![zero; kinds * cells] }
+        Self { asked, cell, waves, bodies: vec![Displaced::NOT; kinds * cells] }
     }
 
     fn rests(&self) -> &'a [Rest] {
         &self.waves.rest().bodies
     }
 
-    /// The body of the cell that a body of the run is a copy of, and the cell in which this is.
     fn origin(&self, body: usize) -> (usize, [u32; 3]) {
-        let WaveStart { repeat, unit, .. } = self.asked;
-        let cells = count(repeat);
-        let mut number = (body % cells) as u32;
-        let at = repeat.map(|many| {
-            let along = number % many;
-            number /= many;
-            along
-        });
-        let within = (0..3).rev().fold(0, |within, a| within * unit[a] + at[a] % unit[a]);
-        (body / cells * count(unit) + within as usize, at)
+        origin(body, &self.asked.repeat, &self.asked.unit)
     }
 
     /// Adds a wave, or all of them.
@@ -234,7 +220,33 @@ impl<'a> Moved<'a> {
     }
 }
 
+/// The body of the cell that a body of the run is a copy of, and the cell of the run in which this is.
+pub(crate) fn origin(body: usize, repeat: &[u32; 3], unit: &[u32; 3]) -> (usize, [u32; 3]) {
+    let cells = count(repeat);
+    let mut number = (body % cells) as u32;
+    let at = repeat.map(|many| {
+        let along = number % many;
+        number /= many;
+        along
+    });
+    let within = (0..3).rev().fold(0, |within, a| within * unit[a] + at[a] % unit[a]);
+    (body / cells * count(unit) + within as usize, at)
+}
+
+/// How a body starts that rests.
+pub(crate) fn resting(body: &Body, rest: &Rest) -> Start {
+    Displaced::NOT.from(body, rest)
+}
+
 impl Displaced {
+    /// At rest.
+    const NOT: Self = Self {
+        translation: Vec3::new(0.0, 0.0, 0.0),
+        spread: Mat3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+        velocity: Vec3::new(0.0, 0.0, 0.0),
+        spread_rate: Mat3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    };
+
     /// How a body starts that has moved so far from its rest.
     fn from(&self, body: &Body, rest: &Rest) -> Start {
         let Placement { position, gradient } = rest.placement;

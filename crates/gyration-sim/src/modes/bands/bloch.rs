@@ -37,6 +37,10 @@ pub(super) struct BlochSystem {
     pub is_conservative: bool,
     /// Whether what else acts does no work.
     pub is_lossless: bool,
+    /// Whether K(k) is Hermitian at every k, whatever else acts.
+    pub has_potential: bool,
+    /// Whether C(k) is.
+    pub resists_evenly: bool,
     /// Of each body: where its ξ stand, and twice the kinetic energy of each part of a motion as a form of them.
     parts: Vec<(Range<usize>, [DMatrix<f64>; PARTS])>,
 }
@@ -57,6 +61,7 @@ impl BlochSystem {
         let is_symmetric = is_mirrored(&cells.cells, stiffest, 1.0, |cell| &cell.stiffness);
         let is_conservative = cells.has_only_stiffness() && is_symmetric;
         let is_gyroscopic = is_mirrored(&cells.cells, cells.most_resisting(), -1.0, |cell| &cell.resistance);
+        let resists_evenly = is_mirrored(&cells.cells, cells.most_resisting(), 1.0, |cell| &cell.resistance);
         let parts = parts(frozen, coordinates, numbers);
         let inertial = coordinates.inertial(frozen);
         let stiffest_moving = match inertial.weightless.is_empty() {
@@ -64,7 +69,18 @@ impl BlochSystem {
             false => cells.cells.iter().map(|cell| cell.stiffness.select_rows(&inertial.moving).norm()).sum(),
         };
         let is_lossless = is_symmetric && is_gyroscopic && cells.counts[1] == 0 && inertial.weightless.is_empty();
-        Ok(Self { cells, stiffest, stiffest_moving, inertial, is_conservative, is_lossless, parts })
+        let has_potential = is_symmetric;
+        Ok(Self {
+            cells,
+            stiffest,
+            stiffest_moving,
+            inertial,
+            is_conservative,
+            is_lossless,
+            has_potential,
+            resists_evenly,
+            parts,
+        })
     }
 
     /// How many ξ and γ there are.

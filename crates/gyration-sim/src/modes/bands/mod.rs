@@ -17,6 +17,7 @@ mod eigenspaces;
 mod evanescent;
 mod first_order;
 mod mesh;
+mod normal;
 mod path;
 #[cfg(test)]
 mod relations;
@@ -32,6 +33,8 @@ mod waves;
 pub use continuum::{Continuum, ContinuumModel, NoContinuum, Reach, Tensor, frequency_error};
 pub use doubt::MatrixDoubt;
 pub use mesh::{BandGap, StateDensity, Zone};
+pub use normal::NoNormalModes;
+pub(crate) use normal::NormalModes;
 pub use path::{BandPath, MOST_POINTS, PathError, PathPoint};
 pub use sound::Sound;
 pub use stability::{LeastSquare, Stability, Unstable, ZoneMesh};
@@ -251,6 +254,11 @@ impl LatticeWaves {
         Ok(frequencies)
     }
 
+    /// A direction that is no symmetry: it tells waves of one frequency apart where no other is given.
+    fn any_direction(&self) -> Vec3 {
+        self.wave_vector(&[0.83, 0.47, 0.29]).normalize()
+    }
+
     /// The shapes of a wave.
     fn shapes(&self, wave: &DVector<C64>) -> Vec<BandShape> {
         let [real, imaginary] =
@@ -292,8 +300,7 @@ impl LatticeWaves {
         }
         let kappa = point.kappa;
         let along = self.wave_vector(&point.along);
-        // Without a direction any that is no symmetry tells waves of one frequency apart.
-        let along = along.try_normalize(0.0).unwrap_or_else(|| self.wave_vector(&[0.83, 0.47, 0.29]).normalize());
+        let along = along.try_normalize(0.0).unwrap_or_else(|| self.any_direction());
         let changes = request.varied.iter().map(VariedCell::matrices).collect();
         let found = self.system.waves(&kappa, &along, &Asked { changes, doubt: request.doubt });
         let Waves { branches, roots } = found.map_err(|_| NoBands::Roots(kappa))?;

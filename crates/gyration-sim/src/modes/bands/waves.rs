@@ -38,7 +38,8 @@ impl BlochSystem {
         }
     }
 
-    fn conservative(&self, kappa: &[f64; 3], along: &Vec3, asked: &Asked<'_>) -> Result<Waves, NoRoots> {
+    /// Those of K alone.
+    pub(super) fn conservative(&self, kappa: &[f64; 3], along: &Vec3, asked: &Asked<'_>) -> Result<Waves, NoRoots> {
         let whole = self.wave(kappa).stiffness;
         let matrix = hermitian(whole.clone());
         let eigen = hermitian_eigen(matrix.clone()).ok_or(NoRoots)?;
