@@ -1,7 +1,7 @@
 //! The Python package `gyration`: the engine for NumPy, notebooks and control loops.
 //!
 //! ```text
-//! Scene ─→ run → Recording → arrays, xarray, pandas, Picture, report
+//! Scene ─→ run → Recording → arrays, xarray, pandas, fields, spectrum, Picture, report
 //!      ├─→ Simulation: step, look, apply, step
 //!      ├─→ Batch: many simulations at once
 //!      ├─→ run_many → Runs: arrays of endings
@@ -60,7 +60,7 @@ mod _gyration {
     #[pymodule_export]
     use super::many::{Runs, run_many};
     #[pymodule_export]
-    use super::medium::{continuum, fields, orbit};
+    use super::medium::{continuum, fields, orbit, spectrum};
     #[pymodule_export]
     use super::modes::modes;
     #[pymodule_export]

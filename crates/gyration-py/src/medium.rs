@@ -9,7 +9,7 @@ use gyration::tensor::Vec3;
 use gyration_sim::modes::bands::ContinuumModel;
 use gyration_sim::orbit::{OrbitChoice, OrbitSurvey};
 use gyration_sim::survey::ContinuumSurvey;
-use gyration_sim::{FieldPoints, FieldSurvey};
+use gyration_sim::{FieldPoints, FieldSurvey, RingSpectrum};
 use pyo3::prelude::*;
 use serde_json::json;
 
@@ -58,6 +58,19 @@ pub fn fields<'py>(
     let inner = recording.inner.clone();
     let found = interruptibly(py, || FieldSurvey::of(&inner, width, &points, every))?;
     with_arrays(py, &json!(found.map_err(|error| errors::arguments(error.to_string()))?))
+}
+
+/// How the energy of a ring is shared out among the waves of its cell, as ``gyration spectrum`` has it: ``kappa`` (n,
+/// 3), ``omega``, ``decay``, ``energy`` and ``change`` (n, branches), ``t``, ``total`` and ``run`` (samples), and
+/// ``branches`` with what is measured of each; ``energies`` (samples, n, branches) if they are asked for.
+#[pyfunction]
+#[pyo3(signature = (recording, *, energies=false))]
+pub fn spectrum<'py>(py: Python<'py>, recording: &Recording, energies: bool) -> PyResult<Bound<'py, PyAny>> {
+    let inner = recording.inner.clone();
+    let found = interruptibly(py, || RingSpectrum::of(&inner, energies))?;
+    let found = found.map_err(|error| errors::arguments(error.to_string()))?;
+    found.warnings.iter().try_for_each(|warning| errors::warn(py, Some(warning.clone())))?;
+    with_arrays(py, &json!(found))
 }
 
 /// A motion of a scene that repeats itself, as ``gyration orbit`` has it: ``period``, ``energy``, ``start`` by body,

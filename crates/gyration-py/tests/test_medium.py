@@ -24,6 +24,20 @@ def test_a_chain_under_tension_bears_it_in_every_point():
         gyration.fields(recording, 0)
 
 
+def test_a_wave_of_a_ring_is_one_branch_of_its_spectrum():
+    wave = {"kappa": [0.25, 0, 0], "branch": 2, "amplitude": 1e-6}
+    ring = CHAIN | {"lattice": CHAIN["lattice"] | {"wave": wave}, "time": {"end": 2, "sample": 0.05}}
+    found = gyration.spectrum(gyration.Scene(ring).run(), energies=True)
+    assert found["kappa"].shape == (4, 3) and found["energy"].shape == (4, 3)
+    assert found["energies"].shape == (41, 4, 3) and found["total"].shape == (41,)
+    assert found["energy"][2, 2] == pytest.approx(found["total"].mean(), rel=1e-6)
+    branch = found["branches"][8]
+    # 2 sqrt(k/m) sin(pi/4) along a chain.
+    assert branch["branch"] == 2 and branch["omega"] == pytest.approx(160**0.5, rel=1e-6)
+    with pytest.raises(gyration.ArgumentError, match="no `\\[lattice\\]`"):
+        gyration.spectrum(gyration.Scene({**CHAIN, "lattice": None, "spring": []}).run())
+
+
 def test_the_same_chain_is_a_continuum():
     found = gyration.continuum(CHAIN, "0,0,0 0.5,0,0", model="cauchy", points=3)
     # k a along it, T across.

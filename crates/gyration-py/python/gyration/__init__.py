@@ -20,6 +20,7 @@ Lengths are in m, masses in kg, times in s, forces in N, angles in rad. Vectors 
 :func:`continuum`    a lattice as a continuum: matrices, moduli, where it ends
 :func:`orbit`        a motion that repeats itself: period, start, multipliers
 :func:`fields`       many bodies as a medium: density, momenta, stresses of a recording
+:func:`spectrum`     the waves in which a ring moves: energies, frequencies, widths
 :func:`resistance`   forces on a body in a viscous fluid
 :func:`sensitivities` derivatives of what is recorded by any number of a scene
 :func:`calibrate`    numbers of the laws from measurements, with their errors
@@ -57,6 +58,7 @@ from gyration._gyration import (
     scenes,
     sensitivities,
     simulate,
+    spectrum,
     studies,
 )
 from gyration._study import study
@@ -90,6 +92,7 @@ __all__ = [
     "scenes",
     "sensitivities",
     "simulate",
+    "spectrum",
     "studies",
     "study",
 ]

@@ -35,6 +35,7 @@ __all__ = [
     "scenes",
     "sensitivities",
     "simulate",
+    "spectrum",
     "studies",
 ]
 
@@ -397,6 +398,7 @@ def fields(
     grid: tuple[int, int, int] | None = None,
     every: int = 1,
 ) -> dict[str, Any]: ...
+def spectrum(recording: Recording, *, energies: bool = False) -> dict[str, Any]: ...
 def orbit(
     scene: _SceneLike,
     *,
