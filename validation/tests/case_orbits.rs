@@ -16,7 +16,7 @@ const POINT: &str = "shape = { points = [{ mass = 1, at = [0, 0, 0] }] }";
 
 fn orbit(text: &str, choice: &OrbitChoice) -> OrbitSurvey {
     let scene = Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"));
-    OrbitSurvey::of(&scene, choice).unwrap_or_else(|error| panic!("{error}"))
+    OrbitSurvey::of(&scene, choice, None).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn amplitude(column: &str, value: f64) -> OrbitChoice {

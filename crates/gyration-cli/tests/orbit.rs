@@ -37,6 +37,8 @@ fn what_is_no_orbit_is_refused() {
         (&["--period", "-1"][..], "no time above zero"),
         (&["--amplitude", "body.a.x"], "is not as"),
         (&["--amplitude", "body.b.x=1"], "the columns are"),
+        (&["--shift", "1"], "no `[lattice]`"),
+        (&["--shift", "1,2"], "neither a number of cells nor three"),
         (&["--energy", "1", "--amplitude", "body.a.x=1"], "cannot be used with"),
     ] {
         let said = sandbox.refused(2, &[&["orbit", "well.toml"][..], arguments].concat());

@@ -73,17 +73,28 @@ pub fn spectrum<'py>(py: Python<'py>, recording: &Recording, energies: bool) -> 
     with_arrays(py, &json!(found))
 }
 
+/// Cells along the first vector of a lattice, or along each.
+#[derive(FromPyObject)]
+pub enum Cells {
+    /// Along the first.
+    Along(i32),
+    /// Along each.
+    Each([i32; 3]),
+}
+
 /// A motion of a scene that repeats itself, as ``gyration orbit`` has it: ``period``, ``energy``, ``start`` by body,
 /// ``multipliers`` (n, 2), ``stable``, ``misfit``; by its ``period`` [s], its ``energy`` [J], or an ``amplitude``, a
-/// column of the start and its value.
+/// column of the start and its value. Of a ring, ``shift`` tells by how many cells it has moved on after the period: a
+/// number, or three along its cell vectors.
 #[pyfunction]
-#[pyo3(signature = (scene, *, period=None, energy=None, amplitude=None))]
+#[pyo3(signature = (scene, *, period=None, energy=None, amplitude=None, shift=None))]
 pub fn orbit<'py>(
     py: Python<'py>,
     scene: &Bound<'py, PyAny>,
     period: Option<f64>,
     energy: Option<f64>,
     amplitude: Option<(String, f64)>,
+    shift: Option<Cells>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let choice = match (energy, amplitude, period) {
         (Some(_), Some(_), _) => {
@@ -97,7 +108,11 @@ pub fn orbit<'py>(
     if period.is_some_and(|period| !(period.is_finite() && period > 0.0)) {
         return Err(errors::arguments("`period` is no time above zero\n  fix: give seconds"));
     }
+    let shift = shift.map(|cells| match cells {
+        Cells::Along(first) => [first, 0, 0],
+        Cells::Each(all) => all,
+    });
     let scene = Scene::ready(scene)?;
-    let found = interruptibly(py, || OrbitSurvey::of(&scene, &choice))?.map_err(errors::arguments)?;
+    let found = interruptibly(py, || OrbitSurvey::of(&scene, &choice, shift))?.map_err(errors::arguments)?;
     with_arrays(py, &json!(found))
 }

@@ -35,7 +35,7 @@ def test_a_wave_of_a_ring_is_one_branch_of_its_spectrum():
     # 2 sqrt(k/m) sin(pi/4) along a chain.
     assert branch["branch"] == 2 and branch["omega"] == pytest.approx(160**0.5, rel=1e-6)
     with pytest.raises(gyration.ArgumentError, match="no `\\[lattice\\]`"):
-        gyration.spectrum(gyration.Scene({**CHAIN, "lattice": None, "spring": []}).run())
+        gyration.spectrum(gyration.Scene({key: CHAIN[key] for key in ("world", "time", "body")}).run())
 
 
 def test_the_same_chain_is_a_continuum():
@@ -65,3 +65,15 @@ def test_an_orbit_has_the_period_of_its_amplitude():
     assert found["period"] == pytest.approx(4.768022029, abs=2e-9)
     assert found["stable"] and found["multipliers"].shape == (6, 2)
     np.testing.assert_allclose(found["start"]["a"]["position"][0], 1, rtol=1e-9)
+
+
+def test_a_phonon_moves_on_by_a_cell_in_the_time_of_its_phase():
+    wave = {"kappa": [0.25, 0, 0], "branch": 0, "amplitude": 1e-3}
+    body = [CHAIN["body"][0] | {"keep": {"line": [1, 0, 0]}}]
+    ring = CHAIN | {"lattice": CHAIN["lattice"] | {"wave": wave}, "body": body}
+    found = gyration.orbit(ring, shift=1)
+    # q/omega, omega = 2 sqrt(k/m) sin(q/2).
+    assert found["period"] == pytest.approx(np.pi / 2 / 160**0.5, rel=1e-9)
+    assert gyration.orbit(ring, shift=(1, 0, 0))["period"] == pytest.approx(found["period"], rel=1e-9)
+    with pytest.raises(gyration.ArgumentError, match="free ends along cell vector 2"):
+        gyration.orbit(ring, shift=(0, 1, 0))

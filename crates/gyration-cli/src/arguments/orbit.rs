@@ -18,6 +18,10 @@ pub struct OrbitArguments {
     /// A column of the start and its value: body.a.x=0.1
     #[arg(long, value_name = "COLUMN=VALUE", value_parser = amplitude)]
     pub amplitude: Option<(String, f64)>,
+    /// Cells by which a ring has moved on after the period, N or N1,N2,N3 along its cell vectors: a wave that runs
+    /// around it without a change
+    #[arg(long, value_name = "N", value_parser = shift, allow_hyphen_values = true)]
+    pub shift: Option<[i32; 3]>,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -34,6 +38,15 @@ fn amplitude(text: &str) -> Result<(String, f64), String> {
     found.map(|(column, value)| (column.to_owned(), value)).ok_or_else(|| format!("`{text}` is not as body.a.x=0.1"))
 }
 
+fn shift(text: &str) -> Result<[i32; 3], String> {
+    let numbers: Result<Vec<i32>, _> = text.split(',').map(|word| word.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok([first]) => Ok([*first, 0, 0]),
+        Ok([first, second, third]) => Ok([*first, *second, *third]),
+        _ => Err(format!("`{text}` is neither a number of cells nor three as 1,0,0")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -46,5 +59,13 @@ mod tests {
         }
         assert!(positive("0").is_err() && positive("-1").is_err() && positive("inf").is_err());
         assert_eq!(positive("2.5"), Ok(2.5));
+    }
+
+    #[test]
+    fn shifts_are_one_number_of_cells_or_three() {
+        assert_eq!([shift("1"), shift("-2"), shift("0, 1,-3")], [Ok([1, 0, 0]), Ok([-2, 0, 0]), Ok([0, 1, -3])]);
+        for wrong in ["", "1,2", "0.5", "x", "1,2,3,4"] {
+            assert!(shift(wrong).is_err(), "{wrong}");
+        }
     }
 }

@@ -24,7 +24,8 @@ pub fn execute(arguments: &OrbitArguments) -> Result<u8, CliError> {
         (None, None, Some(period)) => OrbitChoice::Period(period),
         (None, None, None) => OrbitChoice::Nearest,
     };
-    let found = waiting(format!("looking for an orbit of {name}"), true, || OrbitSurvey::of(&scene, &choice));
+    let found =
+        waiting(format!("looking for an orbit of {name}"), true, || OrbitSurvey::of(&scene, &choice, arguments.shift));
     let found =
         found.map_err(|reason| CliError::arguments(reason, "see `gyration orbit --help`; begin nearer to it"))?;
     let text = match arguments.json {
@@ -44,6 +45,9 @@ fn in_words(title: &str, found: &OrbitSurvey) -> String {
 
 fn write_orbit(text: &mut String, found: &OrbitSurvey) -> std::fmt::Result {
     writeln!(text, "period      {} s, {} rad/s", significant(found.period, 12), significant(TAU / found.period, 8))?;
+    if let Some([a, b, c]) = found.shift {
+        writeln!(text, "moves on    by ({a}, {b}, {c}) cells in that time")?;
+    }
     writeln!(text, "energy      {} J", significant(found.energy, 8))?;
     writeln!(text, "comes back  to {:.1e} of the scales of its start", found.misfit)?;
     let verdict = if found.stable { "stable: no neighbour leaves it" } else { "unstable: neighbours leave it" };

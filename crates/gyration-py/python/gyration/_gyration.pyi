@@ -405,6 +405,7 @@ def orbit(
     period: float | None = None,
     energy: float | None = None,
     amplitude: tuple[str, float] | None = None,
+    shift: int | tuple[int, int, int] | None = None,
 ) -> dict[str, Any]: ...
 def resistance(
     scene: _SceneLike,

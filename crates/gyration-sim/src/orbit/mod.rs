@@ -1,26 +1,30 @@
 //! Periodic orbits by shooting: a start that comes back to itself, and what becomes of its neighbours.
 //!
-//!   φ_T(y₀) = y₀,   ẏ₀·δy = 0,   E(y₀) = E or q(y₀) = q₀ or T as given,   μ: eigenvalues of ∂φ_T/∂y₀
+//!   S⁻¹ φ_T(y₀) = y₀,   ẏ₀·δy = 0,   E(y₀) = E or q(y₀) = q₀ or T as given,   μ: eigenvalues of S⁻¹ ∂φ_T/∂y₀
 //!
+//! S moves the cells of a ring on (`shift`), so that waves are found that run without a change; elsewhere it is one.
 //! Newton's method with the exact derivative of the flow (`sensitivity/flow`), in coordinates of the states that the
 //! model allows (`chart`). Directions along which nothing is determined, those of symmetries, are left as they are: the
 //! step is the shortest. Where drives depend on time the period is given, and there is no freedom of phase. Multipliers
 //! μ of a motion without losses come in pairs μ, 1/μ; two are one, and two more for each symmetry.
 
 mod chart;
+mod choice;
+mod shift;
 mod survey;
 #[cfg(test)]
 mod tests;
 
+pub use choice::{Choice, energy};
+pub use shift::{CellShift, NoShift};
 pub use survey::{OrbitChoice, OrbitStart, OrbitSurvey};
 
 use crate::adapter::Tolerance;
 use crate::plan::RunPlan;
 use crate::sensitivity::{Flow, NoFlow, each_state};
 use chart::{Chart, align, change, largest_of_kind, scales};
+use choice::{seen, value, wanted};
 use gyration::Inadmissible;
-use gyration::balance::{energies, kinetic_energy};
-use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{ImplicitOrder, Options};
@@ -49,16 +53,15 @@ const SWEEPS: usize = 10_000;
 /// A quantity is varied by this part of the scales.
 const PROBE: f64 = 1e-5;
 
-/// What chooses one of a family of orbits.
-pub enum Choice<'a> {
-    /// The period \[s\].
-    Period,
-    /// The energy \[J\].
-    Energy(f64),
-    /// The value of a quantity of the start.
-    Quantity(&'a dyn Fn(&State) -> Result<f64, Inadmissible>, f64),
-    /// Nothing: the orbit stands alone.
-    Alone,
+/// Motions of a model among which one is looked for.
+#[derive(Debug, Clone)]
+pub struct OrbitSearch<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// How its runs are made.
+    pub plan: &'a RunPlan,
+    /// By what the cells of a ring have moved on after a period.
+    pub shift: Option<CellShift>,
 }
 
 /// A motion that repeats itself.
@@ -72,7 +75,7 @@ pub struct Orbit {
     pub multipliers: Vec<Complex<f64>>,
     /// Whether none but those of phase and symmetries is larger than one.
     pub stable: bool,
-    /// What is left of φ_T(y₀) = y₀, in the scales of the state.
+    /// What is left of S⁻¹ φ_T(y₀) = y₀, in the scales of the state.
     pub misfit: f64,
 }
 
@@ -119,9 +122,9 @@ pub enum NoOrbit {
 struct Trial {
     start: State,
     period: f64,
-    /// ∂φ_T/∂y₀ in coordinates.
+    /// S⁻¹ ∂φ_T/∂y₀ in coordinates.
     derivative: DMatrix<f64>,
-    /// y(T) − y₀ in coordinates, and ẏ at both.
+    /// S⁻¹ y(T) − y₀ in coordinates, and ẏ at both.
     gap: DVector<f64>,
     rates: [DVector<f64>; 2],
     misfit: f64,
@@ -133,14 +136,9 @@ impl Orbit {
     ///
     /// # Errors
     /// [`NoOrbit`].
-    pub fn near(
-        model: &Model,
-        plan: &RunPlan,
-        start: &State,
-        period: f64,
-        choice: &Choice<'_>,
-    ) -> Result<Self, NoOrbit> {
-        let mut trial = Trial::of(model, plan, start.clone(), period)?;
+    pub fn near(search: &OrbitSearch<'_>, start: &State, period: f64, choice: &Choice<'_>) -> Result<Self, NoOrbit> {
+        let model = search.model;
+        let mut trial = Trial::of(search, start.clone(), period)?;
         if trial.gap.is_empty() {
             return Err(NoOrbit::NothingMoves);
         }
@@ -148,7 +146,7 @@ impl Orbit {
         if driven && !matches!(choice, Choice::Period) {
             return Err(NoOrbit::Driven);
         }
-        let mut off = wanted(model, choice, &trial)?;
+        let mut off = wanted(model, choice, &trial.start)?;
         for _ in 0..MOST_STEPS {
             if trial.misfit <= FOUND * 1e-2 && off.abs() <= FOUND {
                 break;
@@ -156,8 +154,8 @@ impl Orbit {
             let step = trial.step(model, choice, driven, off)?;
             let next = (0..MOST_HALVINGS).find_map(|halving| {
                 let part = 0.5_f64.powi(halving as i32);
-                let next = trial.moved(model, plan, &(part * &step)).ok()?;
-                let left = wanted(model, choice, &next).ok()?;
+                let next = trial.moved(search, &(part * &step)).ok()?;
+                let left = wanted(model, choice, &next.start).ok()?;
                 (next.misfit + left.abs() < trial.misfit + off.abs()).then_some((next, left))
             });
             // Rounding keeps the last one from being improved.
@@ -177,17 +175,19 @@ impl Orbit {
         Ok(Self { period: trial.period, start: trial.start, multipliers, stable, misfit: trial.misfit })
     }
 
-    /// How long a motion takes to come near to its start, when its distance, which had grown, is least for the first
-    /// time; and whether it has kept its energy until then.
+    /// How long a motion takes to come near to its start, its cells moved on if that is asked for: when its distance,
+    /// which had grown or is there from the beginning, is least for the first time; and whether it has kept its energy
+    /// until then.
     ///
     /// # Errors
     /// `NoReturn`, `Outside`, `Flow`.
-    pub fn first_return(model: &Model, plan: &RunPlan, start: &State) -> Result<(f64, bool), NoOrbit> {
+    pub fn first_return(search: &OrbitSearch<'_>, start: &State) -> Result<(f64, bool), NoOrbit> {
+        let OrbitSearch { model, plan, .. } = *search;
         let (mut times, mut changes) = (Vec::new(), Vec::<DVector<f64>>::new());
         let (first, mut most_lost, mut most_kinetic) = (energy(model, start)?, 0.0_f64, 0.0_f64);
         each_state(model, start, plan, |state| {
             times.push(state.time);
-            changes.push(change(model, start, state));
+            changes.push(change(model, start, &search.back(state)));
             // A state that cannot be seen has no energy to compare.
             let [total, kinetic] = seen(model, state).unwrap_or([f64::NAN; 2]);
             most_lost = most_lost.max((total - first).abs());
@@ -201,7 +201,11 @@ impl Orbit {
         let size = |change: &DVector<f64>| change.component_div(&spans).amax();
         let away: Vec<(f64, f64)> = times.iter().copied().zip(changes.iter().map(size)).collect();
         let most = away.iter().map(|(_, size)| *size).fold(0.0, f64::max);
-        let left = away.iter().position(|(_, size)| *size > 0.5 * most).unwrap_or(0);
+        // Whose cells are to move on begins away from where it comes to.
+        let left = match search.shift {
+            Some(_) => 0,
+            None => away.iter().position(|(_, size)| *size > 0.5 * most).unwrap_or(0),
+        };
         let back = (left.max(1)..away.len().saturating_sub(1)).find(|k| {
             let size = |k: usize| away[k].1;
             size(*k) < 0.3 * most && size(*k) <= size(*k - 1) && size(*k) <= size(*k + 1)
@@ -211,8 +215,16 @@ impl Orbit {
     }
 }
 
+impl OrbitSearch<'_> {
+    /// S⁻¹ y.
+    fn back(&self, state: &State) -> State {
+        self.shift.as_ref().map_or_else(|| state.clone(), |shift| shift.back(state))
+    }
+}
+
 impl Trial {
-    fn of(model: &Model, plan: &RunPlan, start: State, period: f64) -> Result<Self, NoOrbit> {
+    fn of(search: &OrbitSearch<'_>, start: State, period: f64) -> Result<Self, NoOrbit> {
+        let OrbitSearch { model, plan, .. } = *search;
         let mut start = State { time: 0.0, ..start };
         let mut chart = Chart::about(model, &start, period)?;
         chart.project(&mut start);
@@ -221,7 +233,11 @@ impl Trial {
         let plan = RunPlan { end: period, tolerance, options, ..*plan };
         let flow = Flow::of(model, &start, &plan, &chart.directions());
         let flow = flow.map_err(|error: NoFlow| NoOrbit::Flow { period, reason: error.to_string() })?;
-        let (end, mut derivative) = (flow.end, flow.derivative);
+        let end = search.back(&flow.end);
+        let mut derivative = match &search.shift {
+            None => flow.derivative,
+            Some(shift) => shift.rows_back(&flow.derivative),
+        };
         align(model, &start, &end, &mut derivative);
         let left = change(model, &start, &end);
         let column = |change: &DVector<f64>, chart: &Chart| {
@@ -291,7 +307,7 @@ impl Trial {
                 let mut coordinates = DVector::zeros(d);
                 coordinates[k] = side * PROBE;
                 let state = self.chart.moved(&self.start, &coordinates);
-                value(model, choice, &state)
+                Ok::<f64, NoOrbit>(value(model, choice, &state)?)
             };
             slope[k] = (beside(1.0)? - beside(-1.0)?) / (2.0 * PROBE);
         }
@@ -299,41 +315,10 @@ impl Trial {
     }
 
     /// What comes of a step.
-    fn moved(&mut self, model: &Model, plan: &RunPlan, step: &DVector<f64>) -> Result<Self, NoOrbit> {
+    fn moved(&mut self, search: &OrbitSearch<'_>, step: &DVector<f64>) -> Result<Self, NoOrbit> {
         let d = self.gap.len();
         let start = self.chart.moved(&self.start, &step.rows(0, d).into_owned());
         let period = self.period * (1.0 + step[d].clamp(-0.5, 0.5));
-        Self::of(model, plan, start, period)
+        Self::of(search, start, period)
     }
-}
-
-/// By how much the value that an orbit is chosen by is off, as a part of what is wanted.
-fn wanted(model: &Model, choice: &Choice<'_>, trial: &Trial) -> Result<f64, NoOrbit> {
-    match choice {
-        Choice::Period | Choice::Alone => Ok(0.0),
-        Choice::Energy(_) | Choice::Quantity(..) => value(model, choice, &trial.start),
-    }
-}
-
-/// (value − wanted)/|wanted|, absolute where zero is wanted.
-fn value(model: &Model, choice: &Choice<'_>, state: &State) -> Result<f64, NoOrbit> {
-    let (found, wanted) = match choice {
-        Choice::Energy(wanted) => (energy(model, state)?, *wanted),
-        Choice::Quantity(quantity, wanted) => (quantity(state)?, *wanted),
-        Choice::Period | Choice::Alone => (0.0, 0.0),
-    };
-    Ok(if wanted == 0.0 { found } else { (found - wanted) / wanted.abs() })
-}
-
-/// The energy of all bodies, and the kinetic part of it \[J\].
-fn seen(model: &Model, state: &State) -> Result<[f64; 2], Inadmissible> {
-    let moving = |index: usize| kinetic_energy(&model.bodies[index], &state.motion(model, index));
-    Ok([energy(model, state)?, (0..model.bodies.len()).map(moving).sum()])
-}
-
-/// The energy of all bodies \[J\].
-pub fn energy(model: &Model, state: &State) -> Result<f64, Inadmissible> {
-    let mut values = vec![0.0; model.energies().len()];
-    energies(model, &mut Workspace::default(), state, &mut values)?;
-    Ok(values.iter().sum())
 }

@@ -1,6 +1,6 @@
 //! A periodic orbit of a scene, in a form to print.
 
-use super::{Choice, NoOrbit, Orbit, energy};
+use super::{CellShift, Choice, NoOrbit, Orbit, OrbitSearch, energy};
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
 use crate::sensitivity::Quantities;
@@ -42,6 +42,9 @@ pub struct OrbitSurvey {
     pub stable: bool,
     /// What is left after a period, in the scales of the state.
     pub misfit: f64,
+    /// By how many cells along each direction it has moved on after a period, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shift: Option<[i32; 3]>,
 }
 
 /// Where a body is and how it moves.
@@ -61,18 +64,20 @@ pub struct OrbitStart {
 }
 
 impl OrbitSurvey {
-    /// Of a scene.
+    /// Of a scene; `shift` tells by how many cells along each direction of its ring it has moved on after a period.
     ///
     /// # Errors
     /// Why there is none, in words.
-    pub fn of(scene: &Scene, choice: &OrbitChoice) -> Result<Self, String> {
+    pub fn of(scene: &Scene, choice: &OrbitChoice, shift: Option<[i32; 3]>) -> Result<Self, String> {
         let built = scene.built();
         let (model, plan) = (&built.model, RunPlan::from(built));
+        let moved = shift.map(|by| CellShift::of(built, by)).transpose().map_err(|error| error.to_string())?;
+        let search = OrbitSearch { model, plan: &plan, shift: moved };
         let told = |error: NoOrbit| in_words(model, &error);
         let outside = |error: Inadmissible| told(error.into());
-        let first_return = || Orbit::first_return(model, &plan, &built.state).map_err(told);
+        let first_return = || Orbit::first_return(&search, &built.state).map_err(told);
         let guess = |period: Option<f64>| period.map_or_else(|| first_return().map(|found| found.0), Ok);
-        let near = |period, choice: &Choice<'_>| Orbit::near(model, &plan, &built.state, period, choice).map_err(told);
+        let near = |period, choice: &Choice<'_>| Orbit::near(&search, &built.state, period, choice).map_err(told);
         let found = match choice {
             OrbitChoice::Period(period) => near(*period, &Choice::Period)?,
             OrbitChoice::Energy(energy, period) => near(guess(*period)?, &Choice::Energy(*energy))?,
@@ -107,6 +112,7 @@ impl OrbitSurvey {
             multipliers: found.multipliers.iter().map(|mu| [mu.re, mu.im]).collect(),
             stable: found.stable,
             misfit: found.misfit,
+            shift,
         })
     }
 }

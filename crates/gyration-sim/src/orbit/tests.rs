@@ -1,6 +1,7 @@
 //! Orbits: a point in a well with x⁴, by each choice; what is no orbit.
 
-use super::{OrbitChoice, OrbitSurvey};
+use super::{CellShift, NoShift, OrbitChoice, OrbitSurvey};
+use gyration::state::State;
 use gyration_scene::Scene;
 use std::path::Path;
 
@@ -20,7 +21,7 @@ const PERIOD: f64 = 4.768022029;
 
 fn orbit(text: &str, choice: &OrbitChoice) -> Result<OrbitSurvey, String> {
     let scene = Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"));
-    OrbitSurvey::of(&scene, choice)
+    OrbitSurvey::of(&scene, choice, None)
 }
 
 #[test]
@@ -78,4 +79,43 @@ fn what_is_no_orbit_is_told() {
     assert!(said.contains("nothing in the scene can move"), "{said}");
     let said = orbit(WELL, &OrbitChoice::Amplitude("body.b.x".into(), 1.0, None)).unwrap_err();
     assert!(said.contains("the columns are"), "{said}");
+}
+
+#[test]
+fn cells_of_a_ring_move_on_and_those_of_no_ring_do_not() {
+    let ring = r#"
+world = { gravity = [0, 0, 0] }
+time = { end = 2, sample = 1 }
+lattice = { cell = [[0.1, 0, 0], [0, 0.1, 0]], repeat = [3, 2, 1], periodic = [true, false] }
+[[body]]
+name = "a"
+shape = { points = [{ mass = 0.5, at = [0, 0, 0] }] }
+keep = { line = [1, 0, 0] }
+[[body]]
+name = "b"
+position = [0, 0, 0.3]
+shape = { sphere = { radius = 0.01 } }
+density = 1000
+[[spring]]
+between = ["a", "a"]
+cell = [1, 0, 0]
+stiffness = 40
+rest_length = 0.1
+"#;
+    let scene = Scene::parse("scene.toml", ring, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    let built = scene.built();
+    let state = &built.state;
+    let numbered = State { bodies: (0..state.bodies.len()).map(|n| n as f64).collect(), ..state.clone() };
+    let slots = |body: usize| built.model.slots(body).block();
+    let back = CellShift::of(built, [1, 0, 0]).unwrap().back(&numbered);
+    for (body, from) in [(0, 1), (1, 2), (2, 0), (3, 4), (5, 3), (6, 7), (11, 9)] {
+        assert_eq!(back.bodies[slots(body)], numbered.bodies[slots(from)], "{body}");
+    }
+    let there = CellShift::of(built, [-1, 0, 0]).unwrap();
+    assert_eq!((there.back(&back), CellShift::of(built, [3, 0, 0]).unwrap().back(&back)), (numbered, back.clone()));
+    assert_eq!(CellShift::of(built, [0, 1, 0]), Err(NoShift::FreeEnds(2)));
+    assert_eq!(CellShift::of(built, [0, 0, 1]), Err(NoShift::FreeEnds(3)));
+    let well = Scene::parse("scene.toml", WELL, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    let said = OrbitSurvey::of(&well, &OrbitChoice::Nearest, Some([1, 0, 0])).unwrap_err();
+    assert!(said.contains("no `[lattice]`"), "{said}");
 }
