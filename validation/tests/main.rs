@@ -48,6 +48,7 @@ mod case_spectrum;
 mod case_strong_lattices;
 mod case_taut_pairs;
 mod case_topology;
+mod case_travelling_waves;
 mod case_tumbling_box;
 mod case_waves;
 mod gallery_adhere;
