@@ -44,7 +44,12 @@ fn in_words(title: &str, found: &OrbitSurvey) -> String {
 }
 
 fn write_orbit(text: &mut String, found: &OrbitSurvey) -> std::fmt::Result {
-    writeln!(text, "period      {} s, {} rad/s", significant(found.period, 12), significant(TAU / found.period, 8))?;
+    // A wave that has moved on has swung by a part of a turn.
+    let turns = match found.shift {
+        None => format!(", {} rad/s", significant(TAU / found.period, 8)),
+        Some(_) => String::new(),
+    };
+    writeln!(text, "period      {} s{turns}", significant(found.period, 12))?;
     if let Some([a, b, c]) = found.shift {
         writeln!(text, "moves on    by ({a}, {b}, {c}) cells in that time")?;
     }

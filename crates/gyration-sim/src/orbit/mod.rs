@@ -148,7 +148,7 @@ impl Orbit {
         }
         let mut off = wanted(model, choice, &trial.start)?;
         for _ in 0..MOST_STEPS {
-            if trial.misfit <= FOUND * 1e-2 && off.abs() <= FOUND {
+            if trial.misfit <= FOUND * 1e-2 * trial.path().min(1.0) && off.abs() <= FOUND {
                 break;
             }
             let step = trial.step(model, choice, driven, off)?;
@@ -156,7 +156,7 @@ impl Orbit {
                 let part = 0.5_f64.powi(halving as i32);
                 let next = trial.moved(search, &(part * &step)).ok()?;
                 let left = wanted(model, choice, &next.start).ok()?;
-                (next.misfit + left.abs() < trial.misfit + off.abs()).then_some((next, left))
+                (next.missed(left) < trial.missed(off)).then_some((next, left))
             });
             // Rounding keeps the last one from being improved.
             let Some((next, left)) = next else { break };
@@ -270,7 +270,18 @@ impl Trial {
         Ok(false)
     }
 
-    /// Newton's step of coordinates and period.
+    /// How far the motion goes in a period, about, in scales.
+    fn path(&self) -> f64 {
+        self.period * self.rates[0].amax()
+    }
+
+    /// By what it is no orbit: the misfit as a part of the path, and what it is chosen by.
+    fn missed(&self, off: f64) -> f64 {
+        let path = self.path();
+        self.misfit / if path > 0.0 { path } else { 1.0 } + off.abs()
+    }
+
+    /// Newton's step of coordinates, in scales, and period, as a part of it.
     fn step(&mut self, model: &Model, choice: &Choice<'_>, driven: bool, off: f64) -> Result<DVector<f64>, NoOrbit> {
         let d = self.gap.len();
         let mut equations = DMatrix::zeros(d + 2, d + 1);
@@ -281,21 +292,29 @@ impl Trial {
         if !driven && size > 0.0 {
             equations.view_mut((d, 0), (1, d)).copy_from(&(self.rates[0].transpose() / size));
         }
-        if !matches!(choice, Choice::Period) {
-            // A unit of the last unknown is the whole period.
-            equations.view_mut((0, d), (d, 1)).copy_from(&(self.period * &self.rates[1]));
+        // The last unknown counts as how far the end moves with the period, and what an orbit is chosen by as how far a
+        // start must move: all equations then are of one size, however short the path.
+        let moves = self.period * self.rates[1].norm();
+        if !matches!(choice, Choice::Period) && moves > 0.0 {
+            equations.view_mut((0, d), (d, 1)).copy_from(&self.rates[1].normalize());
         }
         match choice {
             Choice::Period | Choice::Alone => {}
             Choice::Energy(_) | Choice::Quantity(..) => {
                 let slope = self.slope(model, choice)?;
-                equations.view_mut((d + 1, 0), (1, d)).copy_from(&slope.transpose());
-                right[d + 1] = -off;
+                let steepness = slope.norm();
+                if steepness > 0.0 {
+                    equations.view_mut((d + 1, 0), (1, d)).copy_from(&(slope.transpose() / steepness));
+                    right[d + 1] = -off / steepness;
+                }
             }
         }
         let found = equations.try_svd(true, true, f64::EPSILON, SWEEPS).ok_or(NoOrbit::NotComputed("step"))?;
         let least = UNDETERMINED * found.singular_values.max();
-        Ok(found.solve(&right, least).unwrap_or_else(|_| DVector::zeros(d + 1)))
+        let mut step = found.solve(&right, least).unwrap_or_else(|_| DVector::zeros(d + 1));
+        // A part of the period.
+        step[d] = if moves > 0.0 { step[d] / moves } else { 0.0 };
+        Ok(step)
     }
 
     /// The derivative of what an orbit is chosen by, by differences.
