@@ -134,3 +134,29 @@ fn a_cnoidal_wave_runs_around_a_ring_of_toda() {
         }
     }
 }
+
+#[test]
+fn a_wave_of_a_weakly_cubic_chain_is_found_however_small_and_bends_as_its_amplitude_squared() {
+    let case =
+        Case {
+            row: None, name: "travelling wave of a cubic chain, κ ⅛ of 8", source: "Lindstedt, V = ½kx² + ⅓αx³"
+        };
+    // u = A cos θ + A² b sin 2θ, θ = qn − ωt, b the bound below: what the square of the first harmonic drives.
+    let (q, alpha) = (TAU / 8.0, 2000.0);
+    let s = (0.5 * q).sin();
+    let omega = 2.0 * (STIFFNESS / MASS).sqrt() * s;
+    let second = 2.0 * (STIFFNESS / MASS).sqrt() * q.sin();
+    let bound = 4.0 * alpha / MASS * s * s * q.sin() / (second * second - 4.0 * omega * omega);
+    // Of r² the product of both harmonics, 2 r₁ r₂, has a part that swings as the wave does.
+    let shift = -4.0 * alpha / MASS * s * s * q.sin() * bound / omega;
+    for (amplitude, quantity) in
+        [(1e-3, "period, A = 1 mm [s]"), (1e-4, "period, A = 0.1 mm [s]"), (1e-6, "period, A = 1 µm [s]")]
+    {
+        let found = orbit(&ring(8, amplitude, "20*(l - 0.1)^2 + 2000/3*(l - 0.1)^3"), &OrbitChoice::Nearest, 1);
+        let exact = q / (omega + shift * amplitude * amplitude);
+        // The square of what the second order adds, some times: the start has the energy of the first harmonic alone.
+        let next = 20.0 * (shift * amplitude * amplitude / omega).powi(2);
+        case.check(quantity, exact, found.period, next + 1e-10);
+        assert!(found.misfit < 1e-9, "{found:?}");
+    }
+}
