@@ -33,6 +33,7 @@ mod case_linkages;
 mod case_loads_and_momenta;
 mod case_moving_anchors;
 mod case_moving_joints;
+mod case_neighbours_in_fluid;
 mod case_orbits;
 mod case_own_forces;
 mod case_pinned_audit;

@@ -172,12 +172,27 @@ fn errors_of_inclusions_stand_at_their_place() {
         ),
         ("inclusion = { history = §true }\npin = [0, 0, 0]", "body.ball.inclusion.history", "pinned", "one of"),
         ("inclusion = { history = §true }\naffine = {}", "body.ball.inclusion.history", "rigid sphere", "leave"),
+        (
+            "inclusion = { neighbours = §true }\naffine = {}",
+            "body.ball.inclusion.neighbours",
+            "rigid spheres",
+            "deform",
+        ),
+        (
+            "inclusion = { neighbours = §true, history = true }",
+            "body.ball.inclusion.neighbours",
+            "has no history",
+            "one of `history` and `neighbours`",
+        ),
     ];
     for (line, key, message, help) in rows {
         assert_error(&format!("{}{TIME}{BALL}{line}\n", fluid(1.0)), key, message, help);
     }
     let text = format!("{}{TIME}{BALL}inclusion = {{ history = §true }}\n", fluid(0.0));
     assert_error(&text, "body.ball.inclusion.history", "the fluid has no density", "fluid.density");
+    let cube = "[[body]]\nname = \"cube\"\nmass = 1\nshape = { box = { size = [1, 1, 1] } }\n";
+    let text = format!("{}{TIME}{cube}inclusion = {{ neighbours = §true }}\n", fluid(0.0));
+    assert_error(&text, "body.cube.inclusion.neighbours", "only of spheres", "sphere = { radius");
 }
 
 #[test]

@@ -287,6 +287,17 @@ impl Stop {
                 format!("the formula {} has no derivative where its points coincide", between(model, bond)),
                 "Write a law with V′ = 0 at l = 0, or choose other points.".to_string(),
             ),
+            Quantity::FluidGap { other } => (
+                Reason::GapClosed,
+                format!(
+                    "the spheres {body:?} and {:?}, which feel each other through the fluid, touch{}",
+                    model.name(other),
+                    in_brackets(left.value)
+                ),
+                "No force that is finite presses them together through the fluid, but a step may, and inertia of a \
+                 fast one: start them apart, lower `rtol`, or give them a contact that holds them off."
+                    .to_string(),
+            ),
             Quantity::Stray => (
                 Reason::Strayed,
                 format!("body {body:?} has come {:e} m away from its place in the lattice", left.value),

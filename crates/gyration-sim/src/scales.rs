@@ -124,7 +124,8 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
             | Load::OwnFriction(_)
             | Load::MassFriction(_)
             | Load::SelfGravity(_)
-            | Load::Fluid(..) => 0.0,
+            | Load::Fluid(..)
+            | Load::Neighbours(_) => 0.0,
         };
         Ok::<(), Infallible>(())
     });

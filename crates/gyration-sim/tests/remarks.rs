@@ -246,6 +246,21 @@ fn what_the_fluid_between_bodies_would_do_is_told_with_its_size() {
     assert!(near.contains("the fluid between \"a\" and the support \"floor\" is left out"), "{near}");
     assert!(near.contains("134 times as large"), "{near}");
     assert!(remarks(&above(0.06)).warnings.is_empty());
+    // Nothing is left out between those that say so.
+    let feels = |text: &str, key: &str| text.replace("inertia = false", &format!("inertia = false, {key} = true"));
+    let said = remarks(&feels(&two(0.0105), "neighbours"));
+    assert!(said.warnings.is_empty() && said.notes.is_empty(), "{said:?}");
+    let three = format!("{}{}", two(0.0105), sphere("c", 1.03));
+    let [note] = &remarks(&feels(&three, "neighbours")).notes[..] else { panic!("one note") };
+    assert!(note.starts_with("3 spheres feel one another through the fluid by their far field"), "{note}");
+    let sheared = feels(&two(0.0105), "neighbours")
+        .replace("viscosity = 1.0", "viscosity = 1.0\nvelocity_gradient = [[0, 0, 1], [0, 0, 0], [0, 0, 0]]");
+    let [warning] = &remarks(&sheared).warnings[..] else { panic!("one warning") };
+    assert!(warning.starts_with("the undisturbed flow strains, and the 2 spheres"), "{warning}");
+    let [note] = &remarks(&feels(&format!("{fluid}{}", sphere("a", 1.0)), "neighbours")).notes[..] else {
+        panic!("one note")
+    };
+    assert!(note.ends_with("\"a\" feels nobody through the fluid"), "{note}");
     // The recording tells of the row in which they are nearest: the sphere sinks.
     let [sunk] = &recorded(&above(0.02))[..] else { panic!("one warning") };
     assert!(sunk.contains("at t = 0.01 s"), "{sunk}");

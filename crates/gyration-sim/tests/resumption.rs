@@ -79,3 +79,23 @@ fn symmetric_bodies_resume_after_every_window() {
     }
     resumes_after_every_window(&parsed(&text, &[]), 200);
 }
+
+/// Spheres that feel one another through the fluid, with inertia and without, one of them not.
+#[test]
+fn spheres_in_a_fluid_resume_after_every_window() {
+    for inertia in [true, false] {
+        let mut text = "world = { gravity = [0.3, 0, -9.81] }\ntime = { end = 1.0, sample = 0.05 }\n\
+                        fluid = { viscosity = 2, density = 1000 }\n"
+            .to_owned();
+        for (k, (radius, x, z)) in [(0.01, 0.0, 0.05), (0.016, 0.011, 0.019), (0.006, -0.012, 0.02)].iter().enumerate()
+        {
+            let inertia = inertia || k == 2;
+            text += &format!(
+                "[[body]]\nname = \"s{k}\"\nshape = {{ sphere = {{ radius = {radius} }} }}\ndensity = 2500\n\
+                 position = [{x}, 0.002, {z}]\n\
+                 inclusion = {{ inertia = {inertia}, neighbours = true }}\n"
+            );
+        }
+        resumes_after_every_window(&parsed(&text, &[]), 40);
+    }
+}

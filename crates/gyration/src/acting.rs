@@ -130,6 +130,8 @@ pub enum Load<'a> {
     SelfGravity(&'a SelfGravity),
     /// The fluid around an inclusion.
     Fluid(&'a Fluid, &'a Inclusion),
+    /// What others in the fluid change of that, for the sphere of this place among them.
+    Neighbours(usize),
 }
 
 impl<'a> Load<'a> {
@@ -215,7 +217,8 @@ impl<'a> Load<'a> {
             | Self::PointForce(_)
             | Self::OwnFriction(_)
             | Self::MassFriction(_)
-            | Self::Fluid(..) => true,
+            | Self::Fluid(..)
+            | Self::Neighbours(_) => true,
         }
     }
 
@@ -225,7 +228,7 @@ impl<'a> Load<'a> {
             Self::Contact(_) => LoadKind::Contact,
             Self::Pair(_) => LoadKind::Pair,
             Self::Spring(_) | Self::Bond(_) => LoadKind::Spring,
-            Self::Fluid(..) => LoadKind::Drag,
+            Self::Fluid(..) | Self::Neighbours(_) => LoadKind::Drag,
             Self::Resistance(resistance) if resistance.dissipates() => LoadKind::Friction,
             Self::OwnFriction(_) | Self::MassFriction(_) => LoadKind::Friction,
             Self::Joint(_)
@@ -268,7 +271,7 @@ impl<'a> Load<'a> {
             Self::Couple(_) | Self::Applied(_) | Self::BodyForce(_) | Self::PointForce(_) => vec![Work::Load],
             Self::OwnFriction(_) | Self::MassFriction(_) => vec![Work::Viscosity],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
-            Self::Fluid(..) => vec![Work::Fluid],
+            Self::Fluid(..) | Self::Neighbours(_) => vec![Work::Fluid],
             Self::Potential(potential) if !potential.is_energy() => vec![Work::Load],
             Self::Bond(_) | Self::Resistance(_) | Self::Potential(_) | Self::SelfGravity(_) => Vec::new(),
         }
@@ -293,7 +296,8 @@ impl<'a> Load<'a> {
             | Self::PointForce(_)
             | Self::OwnFriction(_)
             | Self::MassFriction(_)
-            | Self::Fluid(..) => None,
+            | Self::Fluid(..)
+            | Self::Neighbours(_) => None,
         }
     }
 }

@@ -71,13 +71,20 @@ fn rigid(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<Option<Tract
     let rotation = &at.motion.placement.gradient;
     let steady = immersed.drag.force();
     let arm = rotation * inclusion.center;
-    let (force, torque) = history_reaction(at, turn, scratch)?;
+    let (mut force, mut torque) = history_reaction(at, turn, scratch)?;
+    let mut dissipation = immersed.drag.dissipation(&turn.spin);
+    if let Some(place) = at.model.spheres().and_then(|spheres| spheres.place(at.index)) {
+        let (felt, turned) = at.spheres().wrench(place);
+        force += felt;
+        torque += turned;
+        dissipation += at.spheres().dissipation(place);
+    }
     Ok(Some(Tractions {
         drag: steady + force,
         // The axial part of [T]×/2 is T.
         couple: immersed.drag.couple() + immersed.ambient - steady * arm.transpose() + 0.5 * cross_matrix(&torque),
         volume: inclusion.volume,
-        dissipation: immersed.drag.dissipation(&turn.spin),
+        dissipation,
         form: at.body.solid.shape.semi_axes().map(|axes| (*rotation, axes.into())),
         is_ellipsoid: true,
     }))

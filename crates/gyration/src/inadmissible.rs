@@ -53,6 +53,12 @@ pub enum Quantity {
         /// Number of the rule by which they meet.
         rule: usize,
     },
+    /// The distance of the surfaces of this sphere and another that it feels through the fluid, which must be > 0
+    /// \[m\].
+    FluidGap {
+        /// Index of the other body.
+        other: usize,
+    },
     /// How far a body of a lattice has come away from its start in its cell, beside the first body, which must be less
     /// than what the pairs across cells were listed for [m].
     Stray,

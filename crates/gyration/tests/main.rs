@@ -14,6 +14,7 @@ mod deformed;
 mod deformed_moments;
 mod deformed_relations;
 mod facet_moments;
+mod felt_in_fluid;
 mod guides;
 mod joints;
 mod mass;

@@ -93,6 +93,11 @@ impl ImmersedBody<'_> {
         let form = self.form(written, reporter).filter(|_| can_be_resolved(written, &key, reporter));
         let filled = self.shape.mass_properties(1.0);
         let (volume, center) = (filled.volume, filled.center - self.mass.center);
+        let others = ("neighbours", "what they do to one another through the fluid");
+        let neighbours = match written.neighbours {
+            true => Some(self.felt_radius(others, written, context, reporter)?),
+            false => None,
+        };
         let history =
             if written.history && has_kernel { self.history(written, context, &key, reporter)? } else { None };
         (around && still && has_kernel).then_some(Some(Inclusion {
@@ -101,7 +106,49 @@ impl ImmersedBody<'_> {
             center,
             form: form?,
             history,
+            neighbours,
         }))
+    }
+
+    /// The radius of a sphere that feels others by this key; notes what cannot be felt by.
+    fn felt_radius(
+        &self,
+        (name, what): (&str, &str),
+        written: &WrittenInclusion,
+        context: &SceneContext,
+        reporter: &mut Reporter<'_>,
+    ) -> Option<f64> {
+        let key = self.placed.key.key("inclusion").key(name);
+        let faults = [
+            (
+                !matches!(self.kind, BodyKind::Rigid(_)),
+                format!("only of rigid spheres is it known {what}"),
+                format!("leave out `{name}`, or what makes the body deform"),
+            ),
+            (
+                written.history,
+                "the flow between bodies is taken without its inertia, and has no history".to_owned(),
+                format!("leave out one of `history` and `{name}`"),
+            ),
+            (
+                context.has_lattice,
+                "the flow of the bodies in all cells of a lattice has no finite sum".to_owned(),
+                format!("leave `{name}` out, or write the bodies without `[lattice]`"),
+            ),
+        ];
+        for (_, message, help) in faults.iter().filter(|(applies, ..)| *applies) {
+            reporter.note(&key, message, help);
+        }
+        let Shape::Sphere(Sphere { radius }) = self.shape else {
+            let help = format!("write `shape = {{ sphere = {{ radius = … }} }}`, or leave `{name}` out");
+            reporter.note(&key, format!("only of spheres is it known {what}"), help);
+            return None;
+        };
+        if self.mass.center.norm() > ROUNDING * radius {
+            reporter.note(&key, "the centre of mass is not that of the sphere", "give it a `density` or a `mass`");
+            return None;
+        }
+        (!faults.iter().any(|(applies, ..)| *applies)).then_some(*radius)
     }
 
     fn is_in_a_fluid(&self, context: &SceneContext, key: &Key, reporter: &mut Reporter<'_>) -> bool {

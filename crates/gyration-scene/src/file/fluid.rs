@@ -49,6 +49,9 @@ pub struct Inclusion {
     /// Whether the fluid remembers the motion of a rigid sphere: added mass and history force. Needs a fluid density.
     #[serde(default)]
     pub history: bool,
+    /// Whether the body feels others that say so through the fluid, and they feel it. Of rigid spheres.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub neighbours: bool,
     /// About how many triangles the surface is divided into, if it is that of no ellipsoid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 80, max = 10000))]
@@ -68,4 +71,8 @@ pub struct Inclusion {
 
 fn yes() -> bool {
     true
+}
+
+fn is_false(flag: &bool) -> bool {
+    !flag
 }

@@ -159,6 +159,7 @@ impl FrozenSystem {
             Quantity::Formula { of: FormulaOf::Joint(joint), undefined } => {
                 Quantity::Formula { of: FormulaOf::Joint(self.joints[joint]), undefined }
             }
+            Quantity::FluidGap { other } => Quantity::FluidGap { other: self.members[other] },
             Quantity::JointLimit { joint } => Quantity::JointLimit { joint: self.joints[joint] },
             Quantity::Joints { joint } => Quantity::Joints { joint: self.joints[joint] },
             Quantity::PairGap { other, rule } => Quantity::PairGap { other: self.in_scene(other), rule },

@@ -66,7 +66,8 @@ pub fn contact_parts(at: &BodyAt, scratch: &mut Scratch) -> Result<ContactParts,
             | Load::OwnFriction(_)
             | Load::MassFriction(_)
             | Load::SelfGravity(_)
-            | Load::Fluid(..) => {}
+            | Load::Fluid(..)
+            | Load::Neighbours(_) => {}
         }
         Ok(())
     })?;

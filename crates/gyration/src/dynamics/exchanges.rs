@@ -85,7 +85,8 @@ pub fn exchanges(instant: &Instant, scratch: &mut Scratch, out: &mut Vec<Exchang
                 | Load::OwnFriction(_)
                 | Load::MassFriction(_)
                 | Load::SelfGravity(_)
-                | Load::Fluid(..) => None,
+                | Load::Fluid(..)
+                | Load::Neighbours(_) => None,
             };
             out.extend(found.map(|found| found.ordered(instant)));
             Ok(())

@@ -159,6 +159,11 @@ impl Acting {
                 self.powers[Work::Fluid] += loads.power(&velocity.velocity, &velocity.gradient_rate);
                 self.total += loads;
             }
+            Load::Neighbours(place) => {
+                let loads = at.spheres().loads(*place, &at.motion.placement.gradient);
+                self.powers[Work::Fluid] += loads.power(&velocity.velocity, &velocity.gradient_rate);
+                self.total += loads;
+            }
         }
         Ok(())
     }
@@ -253,6 +258,14 @@ pub(super) fn add_slopes(
                 immersed.add_to(slopes, gyration);
             }
         }
+        Load::Neighbours(place) => {
+            let gradient = &at.motion.placement.gradient;
+            let moving = (&at.inverse(), &at.motion.velocity.gradient_rate);
+            let [by_place, by_rate] = at.spheres().coupling([*place, *place], gradient, moving);
+            slopes.loads += at.spheres().loads(*place, gradient);
+            slopes.by_place += by_place;
+            slopes.by_rate += by_rate;
+        }
     }
     Ok(())
 }
@@ -295,7 +308,8 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                 | Load::PointForce(_)
                 | Load::OwnFriction(_)
                 | Load::MassFriction(_)
-                | Load::Fluid(..) => 0.0,
+                | Load::Fluid(..)
+                | Load::Neighbours(_) => 0.0,
             };
         }
         Ok(())

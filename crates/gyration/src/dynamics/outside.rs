@@ -37,7 +37,8 @@ pub(crate) fn outside_loads(at: &BodyAt, scratch: &mut Scratch) -> Result<Loads,
             | Load::OwnFriction(_)
             | Load::MassFriction(_)
             | Load::SelfGravity(_)
-            | Load::Fluid(..) => Party::Space,
+            | Load::Fluid(..)
+            | Load::Neighbours(_) => Party::Space,
         };
         if other.body().is_none() { outside.add(&load, at, scratch) } else { Ok(()) }
     })?;

@@ -82,7 +82,8 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
             | Load::OwnFriction(_)
             | Load::MassFriction(_)
             | Load::SelfGravity(_)
-            | Load::Fluid(..) => {}
+            | Load::Fluid(..)
+            | Load::Neighbours(_) => {}
         }
         Ok(())
     })

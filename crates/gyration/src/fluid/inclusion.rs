@@ -34,6 +34,8 @@ pub struct Inclusion {
     pub form: Form,
     /// The history force on a rigid sphere, if that counts.
     pub history: Option<History>,
+    /// R of a rigid sphere about its centre of mass that feels others like it through the fluid \[m\].
+    pub neighbours: Option<f64>,
 }
 
 /// What the fluid meets.

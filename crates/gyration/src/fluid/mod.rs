@@ -12,6 +12,7 @@
 //! lattice      nodes in these five, and what is linear between them
 //! reference    the ellipsoid against which the resistance of a form is measured
 //! table        matrices at the nodes, computed when they are needed, and the error between them
+//! spheres      rigid spheres that feel one another
 //! unsteady     a sphere in a fluid with inertia: kernels, relaxation modes, small vibrations
 //! ```
 //!
@@ -25,6 +26,7 @@ mod immersed;
 mod inclusion;
 mod lattice;
 mod reference;
+mod spheres;
 mod stretch;
 mod surface;
 mod table;
@@ -38,5 +40,6 @@ pub use fixed::{DragSlopes, FixedForm, RigidDrag};
 pub use history::{History, HistoryLoads};
 pub use immersed::Immersed;
 pub use inclusion::{Form, ImmersedEllipsoid, Inclusion, MOST_SLENDER, SurfaceForm};
+pub use spheres::{ImmersedSpheres, SphereLoads, SpheresTouch};
 pub use surface::ImmersedSurface;
 pub use table::{NoMatrix, ResistanceSource, ResistanceTable, Resolution, UnresolvedForm, largest_error};

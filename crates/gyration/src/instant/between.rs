@@ -6,6 +6,7 @@ use super::motions::Motions;
 use super::parties::PartyAt;
 use super::slabs::{PairGaps, Remembered};
 use crate::acting::{PairAt, PairEnd};
+use crate::fluid::{SphereLoads, SpheresTouch};
 use crate::inadmissible::{FormulaOf, Inadmissible, Quantity};
 use crate::joint::{JointLoads, MotorSlopes};
 use crate::kinematics::BodyMotion;
@@ -34,6 +35,8 @@ pub(super) struct Between {
     joints: Vec<JointLoads>,
     /// The derivatives of what their motors do; none of one without.
     motor_slopes: Vec<Option<MotorSlopes>>,
+    /// What bodies do to one another through the fluid.
+    spheres: SphereLoads,
 }
 
 /// What a pair within reach does.
@@ -99,6 +102,34 @@ impl Between {
     /// What a joint of the model does.
     pub fn joint(&self, number: usize) -> &JointLoads {
         &self.joints[number]
+    }
+
+    /// What bodies do to one another through the fluid.
+    pub fn spheres(&self) -> &SphereLoads {
+        &self.spheres
+    }
+
+    /// Finds the resistance of bodies that feel one another through the fluid, at their places.
+    fn place_spheres(&mut self, looking: &Looking) -> Result<(), Inadmissible> {
+        let Looking { model, motions, .. } = looking;
+        let Some(spheres) = model.spheres() else { return Ok(()) };
+        let apart = |[one, other]: [usize; 2]| motions.at(model, other).from(&motions.at(model, one));
+        self.spheres.place(spheres, apart).map_err(|SpheresTouch { bodies: [body, other], gap }| {
+            let quantity = Quantity::FluidGap { other };
+            Inadmissible { body, quantity, value: gap }
+        })
+    }
+
+    /// Finds what they do at their velocities.
+    fn move_spheres(&mut self, looking: &Looking, wanted: Wanted) {
+        let Looking { model, motions, .. } = looking;
+        let (Some(spheres), Some(fluid)) = (model.spheres(), &model.fluid) else { return };
+        let moving = spheres.bodies().iter().map(|body| {
+            let at = motions.at(model, *body);
+            (&at.motion.placement, &at.motion.velocity, at.inverse())
+        });
+        let around = (fluid.viscosity, &fluid.flow(motions.time()));
+        self.spheres.set_moving(around, moving, wanted == Wanted::Slopes);
     }
 
     /// Tells what a joint of the model does.
@@ -177,6 +208,8 @@ impl Between {
         self.find_springs(looking)?;
         self.find_bonds(looking)?;
         self.find_motors(looking)?;
+        self.place_spheres(looking)?;
+        self.move_spheres(looking, looking.wanted);
         let count = looking.motions.reached().len();
         if self.pairs.len() < count {
             self.pairs.resize_with(count, FoundPair::default);
@@ -193,6 +226,9 @@ impl Between {
     /// Finds again what pairs do of which a body has no inertia, as far as they feel its velocity or their power is a
     /// work, or that with its derivatives: their planes stay.
     pub fn find_felt(&mut self, looking: &mut Looking, wanted: Wanted) -> Result<(), Inadmissible> {
+        // Slopes of the instant stay asked for.
+        let asked = if looking.wanted == Wanted::Slopes { Wanted::Slopes } else { wanted };
+        self.move_spheres(looking, asked);
         let books = !looking.model.has_potential();
         if !looking.model.rules().all().iter().any(|rule| books || rule.laws.feel_velocities()) {
             return Ok(());

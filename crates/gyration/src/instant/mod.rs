@@ -27,6 +27,7 @@ pub use slabs::PairGaps;
 use crate::acting::{Load, PairAt, PairEnd};
 use crate::body::Slots;
 use crate::extended::Numbers;
+use crate::fluid::SphereLoads;
 use crate::inadmissible::Inadmissible;
 use crate::joint::{JointEnd, JointLoads, MotorSlopes};
 use crate::lattice::{Cell, HERE};
@@ -254,6 +255,7 @@ impl Instant<'_> {
             .chain(joints)
             .filter(move |other| *other != body)
             .chain(self.at(body).pairs().filter(|pair| pair.acts()).filter_map(|pair| pair.other_body()))
+            .chain(self.model.felt_in_fluid(body))
     }
 
     /// What springs, bonds and pairs do across cells: the cell of the second party as seen from that of the first, and
@@ -341,6 +343,11 @@ impl<'a> BodyAt<'a> {
     /// The derivatives of what its motor does, at an instant of which they were asked; none without one.
     pub(crate) fn motor_slopes(&self, end: &JointEnd) -> Option<&'a MotorSlopes> {
         self.between.motor_slopes(end.number)
+    }
+
+    /// What bodies do to one another through the fluid.
+    pub(crate) fn spheres(&self) -> &'a SphereLoads {
+        self.between.spheres()
     }
 
     /// What a bond of this number does.

@@ -1,6 +1,6 @@
 //! A model piece by piece: what stands between its bodies, and what surrounds them.
 
-use super::{Model, layout, without_inertia};
+use super::{Model, immersed_spheres, layout, without_inertia};
 use crate::body::{Body, Slots};
 use crate::contact::Contact;
 use crate::fluid::Fluid;
@@ -40,8 +40,8 @@ impl Model {
         assert_eq!(bodies.len(), self.bodies.len(), "each body has one in its place");
         let slots = layout(&bodies);
         let blocks = slots.iter().map(Slots::block).collect();
-        let inertialess = without_inertia(&bodies);
-        let mut model = Self { bodies, inertialess, slots, blocks, ..self };
+        let (inertialess, spheres) = (without_inertia(&bodies), immersed_spheres(&bodies));
+        let mut model = Self { bodies, inertialess, spheres, slots, blocks, ..self };
         model.find_pairs();
         model.has_potential = model.find_potential();
         model.with_ledger()

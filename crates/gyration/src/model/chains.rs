@@ -8,7 +8,13 @@ use crate::pair::cutoff;
 impl Model {
     /// So few pairs of bodies that any two that may act on one another through any chain are joined through these.
     pub fn chain(&self) -> impl Iterator<Item = [usize; 2]> {
-        self.joined().chain(self.rules.all().iter().flat_map(PairRule::chain))
+        self.held_together().chain(self.rules.all().iter().flat_map(PairRule::chain))
+    }
+
+    /// The same of those that act on one another wherever they are: joined, or felt through the fluid.
+    fn held_together(&self) -> impl Iterator<Item = [usize; 2]> {
+        let spheres = self.spheres().map_or(&[][..], |spheres| spheres.bodies());
+        self.joined().chain(spheres.windows(2).map(|pair| [pair[0], pair[1]]))
     }
 
     /// The same of those that act on one another however far they are: through springs, rules without a reach, and
@@ -30,7 +36,7 @@ impl Model {
             };
             rule.chain().filter(is_endless).chain(of_set(0)).chain(of_set(1))
         });
-        self.joined().chain(rules)
+        self.held_together().chain(rules)
     }
 
     /// Whether there are bodies that act on one another within a distance only.

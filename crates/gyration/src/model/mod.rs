@@ -15,7 +15,7 @@ pub use chains::Cutoff;
 use crate::acting::{Interacting, Load, PairAt};
 use crate::body::{Body, Slots};
 use crate::contact::Contact;
-use crate::fluid::Fluid;
+use crate::fluid::{Fluid, ImmersedSpheres};
 use crate::joint::{Joint, JointEnd, JointGraph};
 use crate::lattice::Lattice;
 use crate::ledger::{Energy, Work};
@@ -42,6 +42,8 @@ pub struct Model {
     names: Vec<Arc<str>>,
     /// The fluid around them; those that are no inclusions do not feel it.
     pub fluid: Option<Arc<Fluid>>,
+    /// Those that feel one another through it; none of fewer than two.
+    spheres: Option<Arc<ImmersedSpheres>>,
     /// The cells of which they are; no vectors where there is no lattice.
     pub lattice: Arc<Lattice>,
     /// Where the cell of each body is [m]; empty without a lattice.
@@ -91,7 +93,7 @@ impl Model {
         let (blocks, inertialess) = (slots.iter().map(Slots::block).collect(), without_inertia(&bodies));
         let (works, energies, applied) = (Vec::new(), Vec::new(), Vec::new());
         let (contacts, springs, bonds) = (Interactions::default(), Interactions::default(), Interactions::default());
-        let (fluid, rules) = (None, PairRules::default());
+        let (fluid, rules, spheres) = (None, PairRules::default(), immersed_spheres(&bodies));
         let model = Self {
             gravity,
             supports,
@@ -99,6 +101,7 @@ impl Model {
             names: vec![Arc::from("body"); bodies.len()],
             bodies,
             fluid,
+            spheres,
             lattice: Arc::default(),
             origins: Arc::from([]),
             at_rest: Arc::from([]),
@@ -203,6 +206,17 @@ impl Model {
         self.joint_graph.as_ref()
     }
 
+    /// The bodies that feel one another through the fluid, if there are any.
+    pub fn spheres(&self) -> Option<&ImmersedSpheres> {
+        self.spheres.as_deref().filter(|_| self.fluid.is_some())
+    }
+
+    /// The bodies that a body feels through the fluid.
+    pub fn felt_in_fluid(&self, body: usize) -> impl Iterator<Item = usize> + '_ {
+        let spheres = self.spheres().filter(|spheres| spheres.place(body).is_some());
+        spheres.into_iter().flat_map(ImmersedSpheres::bodies).copied().filter(move |other| *other != body)
+    }
+
     /// The pairs of bodies that springs, bonds and joints join.
     pub fn joined(&self) -> impl Iterator<Item = [usize; 2]> {
         let springs = self.springs().iter().filter_map(Spring::bodies);
@@ -251,7 +265,9 @@ impl Model {
     pub fn is_joined(&self, body: usize) -> bool {
         let acts = |end: SpringEnd| end.other().body().is_some() && end.interaction.law.acts();
         let is_linked = self.joints.of(body).any(|end| end.other().body().is_some());
-        self.springs.of(body).any(acts) || self.bonds.of(body).next().is_some() || is_linked || self.meets_bodies(body)
+        let is_felt = self.felt_in_fluid(body).next().is_some();
+        let is_bound = self.springs.of(body).any(acts) || self.bonds.of(body).next().is_some();
+        is_bound || is_linked || is_felt || self.meets_bodies(body)
     }
 
     /// Hands what acts on a body beside those that it meets to `each`, in the order in which it is summed; stops at the
@@ -267,12 +283,19 @@ impl Model {
         &'a self,
         index: usize,
         pairs: impl Iterator<Item = PairAt<'a>>,
-        each: impl FnMut(Load<'a>) -> Result<(), E>,
+        mut each: impl FnMut(Load<'a>) -> Result<(), E>,
     ) -> Result<(), E> {
         let (body, fluid) = (&self.bodies[index], self.fluid.as_deref());
         let (contacts, springs, bonds) = (self.contacts_of(index), self.springs_of(index), self.bonds_of(index));
         let joints = self.joints_of(index);
-        Load::try_each(body, Interacting { contacts, springs, bonds, pairs, joints }, fluid, self.applied(index), each)
+        let interactions = Interacting { contacts, springs, bonds, pairs, joints };
+        Load::try_each(body, interactions, fluid, self.applied(index), &mut each)?;
+        // What most bodies know without a look at the list.
+        let neighbours = body.inclusion.as_ref().and_then(|inclusion| inclusion.neighbours);
+        match self.spheres().filter(|_| neighbours.is_some()).and_then(|spheres| spheres.place(index)) {
+            Some(place) => each(Load::Neighbours(place)),
+            None => Ok(()),
+        }
     }
 
     /// Whether loads may be applied to its bodies.
@@ -310,6 +333,12 @@ impl Model {
     pub fn dimension(&self) -> usize {
         self.blocks.last().map_or(0, |block| block.end)
     }
+}
+
+/// The spheres that feel one another through a fluid.
+fn immersed_spheres(bodies: &[Arc<Body>]) -> Option<Arc<ImmersedSpheres>> {
+    let radius = |(index, body): (usize, &Arc<Body>)| Some((index, body.inclusion.as_ref()?.neighbours?));
+    ImmersedSpheres::of(bodies.iter().enumerate().filter_map(radius)).map(Arc::new)
 }
 
 /// The bodies without inertia.

@@ -1,6 +1,6 @@
 //! The model of some of the bodies of another.
 
-use super::{Model, layout, without_inertia};
+use super::{Model, immersed_spheres, layout, without_inertia};
 use crate::body::{Body, Slots};
 use crate::contact::Contact;
 use crate::joint::{Joint, JointGraph};
@@ -21,6 +21,7 @@ impl Model {
             blocks: slots.iter().map(Slots::block).collect(),
             slots,
             inertialess: without_inertia(&bodies),
+            spheres: immersed_spheres(&bodies),
             bodies,
             names: members.iter().map(|body| self.names[*body].clone()).collect(),
             fluid: self.fluid.clone(),

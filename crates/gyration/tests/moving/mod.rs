@@ -135,7 +135,7 @@ pub fn body(shape: Shape, variant: Variant) -> Body {
 }
 
 /// A fluid that flows in every way it may, and weighs something.
-fn fluid() -> Fluid {
+pub fn fluid() -> Fluid {
     let swirl = Mat3::new(0.3, 1.1, -0.4, 0.2, -0.5, 0.7, 0.6, -0.1, 0.2);
     let wave = |amplitude| Signal::Sine(Wave { amplitude, frequency: 0.6, phase: 0.2 });
     let stream = Mat3::from_columns(&[Vec3::new(0.4, -0.3, 0.2), Vec3::zeros(), Vec3::zeros()]);
@@ -153,7 +153,7 @@ fn inclusion(body: &Body, inertia: bool) -> Inclusion {
         }
         _ => Form::Ellipsoid(Vec3::new(0.5, 0.3, 0.4)),
     };
-    Inclusion { inertia, volume: 0.4, center, form, history: None }
+    Inclusion { inertia, volume: 0.4, center, form, history: None, neighbours: None }
 }
 
 /// The same bodies immersed in a fluid, with inertia or without.

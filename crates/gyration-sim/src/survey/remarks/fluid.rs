@@ -1,9 +1,9 @@
 //! What the fluid between inclusions, and between one and a support, would do: nothing of it is computed.
 //!
-//! Each inclusion moves as if it were alone in the fluid. For two equal rigid spheres and for one above a plane it is
-//! known how much that leaves out (`neighbor`); of other bodies, R being half the largest diameter, the first term
-//! tells its size: 1 + 3R/2r of the speed at a distance r of the centres, 1/(1 − 9R/8h) of the drag at a height h above
-//! a plane.
+//! Each inclusion moves as if it were alone in the fluid, unless it says that it feels its neighbours. For two equal
+//! rigid spheres and for one above a plane it is known how much that leaves out (`neighbor`); of other bodies, R being
+//! half the largest diameter, the first term tells its size: 1 + 3R/2r of the speed at a distance r of the centres,
+//! 1/(1 − 9R/8h) of the drag at a height h above a plane.
 
 use super::neighbor::{pair_speed_ratio, plane_drag_ratio};
 use crate::format::significant;
@@ -120,6 +120,10 @@ impl LeftOut {
         let spheres: Vec<Sphere> = inclusions.iter().map(sphere).collect();
         let _ = each_overlap(&spheres, |places| {
             let [(one, here), (other, there)] = places.map(|place| inclusions[place]);
+            // Of these the run has what the fluid between them does.
+            if [one, other].iter().all(|body| is_felt(model, *body)) {
+                return ControlFlow::Continue(());
+            }
             pairs += 1;
             largest(&mut self.pair, beside(model, [one, other], (here - there).norm(), time));
             if pairs < MOST_COMPARED { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
@@ -169,6 +173,11 @@ impl LeftOut {
         }
         told
     }
+}
+
+/// Whether a body feels its neighbours.
+fn is_felt(model: &Model, body: usize) -> bool {
+    model.spheres().is_some_and(|spheres| spheres.place(body).is_some())
 }
 
 /// Keeps the neighbour that matters more, the first of those that matter alike.

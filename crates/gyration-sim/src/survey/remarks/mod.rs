@@ -6,6 +6,7 @@
 mod begun;
 mod cut;
 mod far;
+mod felt;
 mod fluid;
 mod joined;
 mod meshes;
@@ -52,6 +53,8 @@ impl Remarks {
         remarks.notes.extend(turning::notes(model));
         remarks.notes.extend(begun::notes(model, start));
         remarks.notes.extend(reaches::notes(model));
+        remarks.notes.extend(felt::notes(model));
+        remarks.warnings.extend(felt::warning(model));
         remarks.warnings.extend(meshes::warnings(model));
         remarks.warnings.extend(stored::warning(model, start));
         remarks.warnings.extend(reaches::warnings(model, start));

@@ -46,13 +46,25 @@ pub(super) fn remark(model: &Model, start: &State, remarks: &mut Remarks) {
     };
     let Some((told, is_one)) = who(&known) else { return };
     let mut expected = known.clone();
-    expected.extend(of_linkages(model, &solid).into_iter().filter(|pair| !meet(model, *pair)));
+    let held_off = of_linkages(model, &solid).into_iter().chain(in_fluid(model, &solid));
+    expected.extend(held_off.filter(|pair| !meet(model, *pair)));
     // What a spring joins may overlap: links of a chain.
     known.extend(model.joined().map(sorted));
     match Overlapping::among(model, start, &solid, &known) {
         Some(found) => remarks.warnings.push(format!("{told}, and {}", found.in_words(model, is_one))),
         None => remarks.notes.extend(who(&expected).map(|(told, _)| told)),
     }
+}
+
+/// The pairs of spheres that feel each other through the fluid, which holds them apart; of very many none.
+fn in_fluid(model: &Model, solid: &[usize]) -> Vec<[usize; 2]> {
+    let spheres = model.spheres().map_or(&[][..], |spheres| spheres.bodies());
+    let spheres: Vec<usize> = spheres.iter().copied().filter(|body| solid.binary_search(body).is_ok()).collect();
+    if spheres.len() > MOST_PINNED {
+        return Vec::new();
+    }
+    let others = |place: usize| spheres[place + 1..].iter().copied();
+    spheres.iter().enumerate().flat_map(|(place, one)| others(place).map(|other| [*one, other])).collect()
 }
 
 /// The pairs of bodies that hang together by joints; of large linkages none.

@@ -136,7 +136,8 @@ fn felt<'a>(at: &BodyAt<'a>) -> impl Iterator<Item = usize> + use<'a> {
     let model = at.model;
     let springs = model.springs_of(at.index).filter(|end| end.interaction.law.damping > 0.0);
     let pairs = at.pairs().filter(|pair| pair.acts() && pair.slopes.is_some_and(|slopes| slopes.by_rate.is_some()));
-    springs.filter_map(|end| end.other().body()).chain(pairs.filter_map(|pair| pair.other_body()))
+    let others = springs.filter_map(|end| end.other().body()).chain(pairs.filter_map(|pair| pair.other_body()));
+    others.chain(model.felt_in_fluid(at.index))
 }
 
 /// The body would move for nothing: its resistance cannot be inverted.

@@ -43,7 +43,8 @@ impl Group {
                     | Load::OwnFriction(_)
                     | Load::MassFriction(_)
                     | Load::SelfGravity(_)
-                    | Load::Fluid(..) => true,
+                    | Load::Fluid(..)
+                    | Load::Neighbours(_) => true,
                 };
                 if linear { Ok(()) } else { Err(()) }
             })

@@ -8,15 +8,15 @@ use super::super::loads::sloped;
 use super::{Coupling, Lift, Lower};
 use crate::acting::Load;
 use crate::instant::BodyAt;
-use crate::lattice::Cell;
+use crate::lattice::{Cell, HERE};
 use crate::load::{Mat12, SpringEnd, SpringLoads, add_blocks};
 use crate::tensor::Vec3;
 use std::convert::Infallible;
 
-/// Hands to `each`, for every spring and pair of a body with another, this other body and its cell, ∂Q by its
-/// coordinates, B of the one and A of the other.
+/// Hands to `each`, for every spring and pair of a body with another, and for each that it feels through the fluid,
+/// this other body and its cell, ∂Q by its coordinates, B of the one and A of the other.
 pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usize, Cell), &Coupling, &Lower, &Lift)) {
-    let mut lower = None;
+    let (mut lower, mut felt) = (None, None);
     let Ok(()) = at.try_each_load(|load| {
         let (other, coupling) = match load {
             Load::Spring(end) => match end.other().body() {
@@ -49,6 +49,10 @@ pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usiz
                 }
                 None => return Ok(()),
             },
+            Load::Neighbours(place) => {
+                felt = Some(place);
+                return Ok(());
+            }
             // What acts on one body alone.
             Load::Contact(_)
             | Load::Couple(_)
@@ -68,6 +72,14 @@ pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usiz
         each(other, &coupling, lower, &Lift::of_state(&at.beside(other.0)));
         Ok::<(), Infallible>(())
     });
+    let (Some(own), Some(spheres)) = (felt, at.model.spheres()) else { return };
+    let lower = lower.unwrap_or_else(|| Lower::of(at));
+    for (place, other) in spheres.bodies().iter().enumerate().filter(|(place, _)| *place != own) {
+        let beside = at.beside(*other);
+        let moving = (&beside.inverse(), &beside.motion.velocity.gradient_rate);
+        let [by_place, by_rate] = at.spheres().coupling([own, place], &at.motion.placement.gradient, moving);
+        each((*other, HERE), &Coupling { by_place, by_rate: Some(by_rate) }, &lower, &Lift::of_state(&beside));
+    }
 }
 
 impl Coupling {
