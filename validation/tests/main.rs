@@ -51,6 +51,7 @@ mod case_taut_pairs;
 mod case_topology;
 mod case_travelling_waves;
 mod case_tumbling_box;
+mod case_walls_in_fluid;
 mod case_waves;
 mod gallery_adhere;
 mod gallery_basset;

@@ -184,6 +184,7 @@ fn errors_of_inclusions_stand_at_their_place() {
             "has no history",
             "one of `history` and `neighbours`",
         ),
+        ("inclusion = { walls = §true }", "body.ball.inclusion.walls", "no plane", "[[support]]"),
     ];
     for (line, key, message, help) in rows {
         assert_error(&format!("{}{TIME}{BALL}{line}\n", fluid(1.0)), key, message, help);
@@ -193,6 +194,13 @@ fn errors_of_inclusions_stand_at_their_place() {
     let cube = "[[body]]\nname = \"cube\"\nmass = 1\nshape = { box = { size = [1, 1, 1] } }\n";
     let text = format!("{}{TIME}{cube}inclusion = {{ neighbours = §true }}\n", fluid(0.0));
     assert_error(&text, "body.cube.inclusion.neighbours", "only of spheres", "sphere = { radius");
+    let wall = |fluid: &str, support: &str| {
+        format!("[fluid]\nviscosity = 1\n{fluid}{TIME}[[support]]\nname = \"wall\"\nplane = {{}}\n{support}{BALL}")
+    };
+    let moving = wall("", "motion = { velocity = [1, 0, 0] }\n") + "inclusion = { walls = §true }\n";
+    assert_error(&moving, "body.ball.inclusion.walls", "a wall that moves", "`motion`");
+    let flowing = wall("velocity = [1, 0, 0]\n", "") + "inclusion = { walls = §true }\n";
+    assert_error(&flowing, "body.ball.inclusion.walls", "the undisturbed flow would have to end", "`velocity`");
 }
 
 #[test]

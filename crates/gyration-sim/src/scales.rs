@@ -125,6 +125,7 @@ pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
             | Load::MassFriction(_)
             | Load::SelfGravity(_)
             | Load::Fluid(..)
+            | Load::Walls(_)
             | Load::Neighbours(_) => 0.0,
         };
         Ok::<(), Infallible>(())

@@ -250,6 +250,8 @@ fn what_the_fluid_between_bodies_would_do_is_told_with_its_size() {
     let feels = |text: &str, key: &str| text.replace("inertia = false", &format!("inertia = false, {key} = true"));
     let said = remarks(&feels(&two(0.0105), "neighbours"));
     assert!(said.warnings.is_empty() && said.notes.is_empty(), "{said:?}");
+    let said = remarks(&feels(&above(0.005 * 1.0076), "walls"));
+    assert!(said.warnings.is_empty() && said.notes.is_empty(), "{said:?}");
     let three = format!("{}{}", two(0.0105), sphere("c", 1.03));
     let [note] = &remarks(&feels(&three, "neighbours")).notes[..] else { panic!("one note") };
     assert!(note.starts_with("3 spheres feel one another through the fluid by their far field"), "{note}");
@@ -261,6 +263,9 @@ fn what_the_fluid_between_bodies_would_do_is_told_with_its_size() {
         panic!("one note")
     };
     assert!(note.ends_with("\"a\" feels nobody through the fluid"), "{note}");
+    let both = feels(&format!("{floor}{}{}", two(0.03), ""), "walls = true, neighbours");
+    let notes = remarks(&both).notes;
+    assert!(notes.iter().any(|note| note.contains("feels walls and other spheres")), "{notes:?}");
     // The recording tells of the row in which they are nearest: the sphere sinks.
     let [sunk] = &recorded(&above(0.02))[..] else { panic!("one warning") };
     assert!(sunk.contains("at t = 0.01 s"), "{sunk}");

@@ -80,12 +80,12 @@ fn symmetric_bodies_resume_after_every_window() {
     resumes_after_every_window(&parsed(&text, &[]), 200);
 }
 
-/// Spheres that feel one another through the fluid, with inertia and without, one of them not.
+/// Spheres that feel one another and a wall through the fluid, with inertia and without, one of them not.
 #[test]
 fn spheres_in_a_fluid_resume_after_every_window() {
     for inertia in [true, false] {
         let mut text = "world = { gravity = [0.3, 0, -9.81] }\ntime = { end = 1.0, sample = 0.05 }\n\
-                        fluid = { viscosity = 2, density = 1000 }\n"
+                        fluid = { viscosity = 2, density = 1000 }\n[[support]]\nname = \"floor\"\nplane = {}\n"
             .to_owned();
         for (k, (radius, x, z)) in [(0.01, 0.0, 0.05), (0.016, 0.011, 0.019), (0.006, -0.012, 0.02)].iter().enumerate()
         {
@@ -93,7 +93,7 @@ fn spheres_in_a_fluid_resume_after_every_window() {
             text += &format!(
                 "[[body]]\nname = \"s{k}\"\nshape = {{ sphere = {{ radius = {radius} }} }}\ndensity = 2500\n\
                  position = [{x}, 0.002, {z}]\n\
-                 inclusion = {{ inertia = {inertia}, neighbours = true }}\n"
+                 inclusion = {{ inertia = {inertia}, neighbours = true, walls = true }}\n"
             );
         }
         resumes_after_every_window(&parsed(&text, &[]), 40);

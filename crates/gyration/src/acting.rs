@@ -130,6 +130,8 @@ pub enum Load<'a> {
     SelfGravity(&'a SelfGravity),
     /// The fluid around an inclusion.
     Fluid(&'a Fluid, &'a Inclusion),
+    /// What planes change of that, for a sphere of this radius [m].
+    Walls(f64),
     /// What others in the fluid change of that, for the sphere of this place among them.
     Neighbours(usize),
 }
@@ -199,6 +201,9 @@ impl<'a> Load<'a> {
         }
         if let (Some(fluid), Some(inclusion)) = (fluid, &body.inclusion) {
             each(Self::Fluid(fluid, inclusion))?;
+            if let Some(radius) = inclusion.walls {
+                each(Self::Walls(radius))?;
+            }
         }
         Ok(())
     }
@@ -218,6 +223,7 @@ impl<'a> Load<'a> {
             | Self::OwnFriction(_)
             | Self::MassFriction(_)
             | Self::Fluid(..)
+            | Self::Walls(_)
             | Self::Neighbours(_) => true,
         }
     }
@@ -228,7 +234,7 @@ impl<'a> Load<'a> {
             Self::Contact(_) => LoadKind::Contact,
             Self::Pair(_) => LoadKind::Pair,
             Self::Spring(_) | Self::Bond(_) => LoadKind::Spring,
-            Self::Fluid(..) | Self::Neighbours(_) => LoadKind::Drag,
+            Self::Fluid(..) | Self::Walls(_) | Self::Neighbours(_) => LoadKind::Drag,
             Self::Resistance(resistance) if resistance.dissipates() => LoadKind::Friction,
             Self::OwnFriction(_) | Self::MassFriction(_) => LoadKind::Friction,
             Self::Joint(_)
@@ -271,7 +277,7 @@ impl<'a> Load<'a> {
             Self::Couple(_) | Self::Applied(_) | Self::BodyForce(_) | Self::PointForce(_) => vec![Work::Load],
             Self::OwnFriction(_) | Self::MassFriction(_) => vec![Work::Viscosity],
             Self::Resistance(resistance) if resistance.dissipates() => vec![Work::Viscosity],
-            Self::Fluid(..) | Self::Neighbours(_) => vec![Work::Fluid],
+            Self::Fluid(..) | Self::Walls(_) | Self::Neighbours(_) => vec![Work::Fluid],
             Self::Potential(potential) if !potential.is_energy() => vec![Work::Load],
             Self::Bond(_) | Self::Resistance(_) | Self::Potential(_) | Self::SelfGravity(_) => Vec::new(),
         }
@@ -297,6 +303,7 @@ impl<'a> Load<'a> {
             | Self::OwnFriction(_)
             | Self::MassFriction(_)
             | Self::Fluid(..)
+            | Self::Walls(_)
             | Self::Neighbours(_) => None,
         }
     }

@@ -9,7 +9,7 @@
 //! aspect ratio r moves on an orbit C = √((p·g)² + (p·e)²/r²)/|p·v| (Leal and Hinch), told as C/(1 + C). What does not
 //! apply is NaN. Source: Batchelor (1970); `docs/theory-fluid.md`.
 
-use crate::dynamics::{RigidImmersion, Scratch, history_reaction, immersion};
+use crate::dynamics::{RigidImmersion, Scratch, beside_walls, history_reaction, immersion};
 use crate::fluid::{Fluid, Immersed};
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, KindAt, MotionAt};
@@ -73,6 +73,12 @@ fn rigid(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<Option<Tract
     let arm = rotation * inclusion.center;
     let (mut force, mut torque) = history_reaction(at, turn, scratch)?;
     let mut dissipation = immersed.drag.dissipation(&turn.spin);
+    if let Some(radius) = inclusion.walls {
+        let walls = beside_walls(at, radius)?;
+        force += walls.wrench().0;
+        torque += walls.wrench().1;
+        dissipation += walls.dissipation();
+    }
     if let Some(place) = at.model.spheres().and_then(|spheres| spheres.place(at.index)) {
         let (felt, turned) = at.spheres().wrench(place);
         force += felt;

@@ -2,6 +2,7 @@
 
 use crate::check::PartialScene;
 use crate::document::Document;
+use crate::file::{Flow, Fluid};
 use crate::quantity::AnyQuantity;
 use crate::tree::Node;
 use gyration_files::Files;
@@ -20,6 +21,10 @@ pub(crate) struct SceneContext<'a> {
     pub(super) has_fluid: bool,
     /// Whether the bodies are those of a cell.
     pub(super) has_lattice: bool,
+    /// Whether a support that is a plane moves.
+    pub(super) supports_move: bool,
+    /// Whether the undisturbed fluid has a flow.
+    pub(super) fluid_flows: bool,
     /// η \[Pa s\] and ρ_f \[kg/m³\], if the file says so without error.
     pub(super) fluid: Option<[f64; 2]>,
     /// G of bodies on themselves \[N m²/kg²\], if the scene has that gravity.
@@ -42,10 +47,20 @@ impl<'a> SceneContext<'a> {
             end: partial.time.as_ref().map(|time| time.end.value()),
             has_support: supports.iter().any(|support| support.get("shape").is_none()),
             has_lattice: document.root.get("lattice").is_some(),
+            supports_move: supports
+                .iter()
+                .any(|support| support.get("shape").is_none() && support.get("motion").is_some()),
+            fluid_flows: partial.fluid.as_ref().is_some_and(flows),
             has_fluid: document.root.get("fluid").is_some(),
             fluid: partial.fluid.as_ref().map(|fluid| [fluid.viscosity.value(), fluid.density.value()]),
             self_gravity: partial.world.self_gravity.map(|gravity| gravity.constant.value()),
             constants,
         }
     }
+}
+
+/// Whether a fluid flows far from the bodies.
+fn flows(fluid: &Fluid) -> bool {
+    let Fluid { velocity, velocity_gradient, .. } = fluid;
+    *velocity != Flow::default() || *velocity_gradient != Flow::default()
 }

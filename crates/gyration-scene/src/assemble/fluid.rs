@@ -98,6 +98,13 @@ impl ImmersedBody<'_> {
             true => Some(self.felt_radius(others, written, context, reporter)?),
             false => None,
         };
+        let walls = match written.walls {
+            true if self.may_feel_walls(context, reporter) => {
+                Some(self.felt_radius(("walls", "what a wall does to them"), written, context, reporter)?)
+            }
+            true => return None,
+            false => None,
+        };
         let history =
             if written.history && has_kernel { self.history(written, context, &key, reporter)? } else { None };
         (around && still && has_kernel).then_some(Some(Inclusion {
@@ -107,10 +114,11 @@ impl ImmersedBody<'_> {
             form: form?,
             history,
             neighbours,
+            walls,
         }))
     }
 
-    /// The radius of a sphere that feels others by this key; notes what cannot be felt by.
+    /// The radius of a sphere that feels others, or walls, by this key; notes what cannot be felt by.
     fn felt_radius(
         &self,
         (name, what): (&str, &str),
@@ -127,7 +135,7 @@ impl ImmersedBody<'_> {
             ),
             (
                 written.history,
-                "the flow between bodies is taken without its inertia, and has no history".to_owned(),
+                "the flow between bodies and walls is taken without its inertia, and has no history".to_owned(),
                 format!("leave out one of `history` and `{name}`"),
             ),
             (
@@ -149,6 +157,32 @@ impl ImmersedBody<'_> {
             return None;
         }
         (!faults.iter().any(|(applies, ..)| *applies)).then_some(*radius)
+    }
+
+    /// Notes what beside the body is not as walls are felt.
+    fn may_feel_walls(&self, context: &SceneContext, reporter: &mut Reporter<'_>) -> bool {
+        let key = self.placed.key.key("inclusion").key("walls");
+        let faults = [
+            (
+                !context.has_support,
+                "the scene has no plane that could be a wall of the fluid",
+                "add a `[[support]]` with a `plane`, or leave `walls` out",
+            ),
+            (
+                context.supports_move,
+                "beside a wall that moves the fluid does not rest",
+                "leave out `walls`, or the `motion` of the supports",
+            ),
+            (
+                context.fluid_flows,
+                "the undisturbed flow would have to end at the wall",
+                "leave out `walls`, or `velocity` and `velocity_gradient` of the fluid",
+            ),
+        ];
+        for (_, message, help) in faults.iter().filter(|(applies, ..)| *applies) {
+            reporter.note(&key, *message, *help);
+        }
+        !faults.iter().any(|(applies, ..)| *applies)
     }
 
     fn is_in_a_fluid(&self, context: &SceneContext, key: &Key, reporter: &mut Reporter<'_>) -> bool {

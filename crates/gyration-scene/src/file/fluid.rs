@@ -52,6 +52,9 @@ pub struct Inclusion {
     /// Whether the body feels others that say so through the fluid, and they feel it. Of rigid spheres.
     #[serde(default, skip_serializing_if = "is_false")]
     pub neighbours: bool,
+    /// Whether the body feels the planes of the scene, which stand still, through a fluid at rest. Of rigid spheres.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub walls: bool,
     /// About how many triangles the surface is divided into, if it is that of no ellipsoid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 80, max = 10000))]

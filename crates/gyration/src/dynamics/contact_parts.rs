@@ -67,6 +67,7 @@ pub fn contact_parts(at: &BodyAt, scratch: &mut Scratch) -> Result<ContactParts,
             | Load::MassFriction(_)
             | Load::SelfGravity(_)
             | Load::Fluid(..)
+            | Load::Walls(_)
             | Load::Neighbours(_) => {}
         }
         Ok(())

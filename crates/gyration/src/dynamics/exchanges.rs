@@ -86,6 +86,7 @@ pub fn exchanges(instant: &Instant, scratch: &mut Scratch, out: &mut Vec<Exchang
                 | Load::MassFriction(_)
                 | Load::SelfGravity(_)
                 | Load::Fluid(..)
+                | Load::Walls(_)
                 | Load::Neighbours(_) => None,
             };
             out.extend(found.map(|found| found.ordered(instant)));

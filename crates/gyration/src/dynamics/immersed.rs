@@ -1,7 +1,7 @@
 //! A body in the fluid at one instant: the form of the fluid's loads that goes with its kind.
 
-use crate::fluid::{Form, Immersed, RigidDrag, UnresolvedForm};
-use crate::inadmissible::Inadmissible;
+use crate::fluid::{Form, Immersed, RigidDrag, UnresolvedForm, WallLoads};
+use crate::inadmissible::{Inadmissible, Quantity};
 use crate::instant::{KindAt, MotionAt};
 use crate::load::{Loads, Wrench, WrenchSlope};
 use crate::tensor::{Mat3, Vec3, cross_matrix};
@@ -17,6 +17,26 @@ pub(crate) fn immersion<'a>(at: &MotionAt<'a>) -> Result<Option<Immersed<'a>>, I
     let around = (&**fluid, &fluid.flow(at.time), &at.model.gravity);
     let unresolved = |UnresolvedForm { quantity, value }| at.outside(quantity, value);
     Immersed::of(inclusion, around, (&at.motion.placement, &at.motion.velocity), gyration).map_err(unresolved)
+}
+
+/// What the planes of the model change for a sphere of a radius [m] in the fluid.
+///
+/// # Errors
+/// [`Inadmissible`] where the sphere touches one.
+pub(crate) fn beside_walls(at: &MotionAt, radius: f64) -> Result<WallLoads, Inadmissible> {
+    let MotionAt { model, motion, time, .. } = *at;
+    let center = &motion.placement.position;
+    let planes = || model.supports.iter().map(|support| support.at(time));
+    for (support, plane) in planes().enumerate() {
+        let gap = plane.gap(center) - radius;
+        // Also where it is no number.
+        if gap.is_nan() || gap <= 0.0 {
+            return Err(at.outside(Quantity::Gap { support }, gap));
+        }
+    }
+    let viscosity = model.fluid.as_ref().map_or(0.0, |fluid| fluid.viscosity);
+    let walls = planes().map(|plane| (plane.gap(center), plane.normal));
+    Ok(WallLoads::of(radius, viscosity, (&motion.velocity, &at.inverse()), walls))
 }
 
 /// A rigid body in the fluid at one instant.

@@ -6,7 +6,7 @@
 
 use super::Scratch;
 use super::contacts::{carrying, meet, turning_of};
-use super::immersed::{RigidImmersion, immersion};
+use super::immersed::{RigidImmersion, beside_walls, immersion};
 use super::powers::Powers;
 use crate::acting::{Load, PairAt};
 use crate::contact::{ContactLoads, ContactSlopes, LawKind, contact_potential};
@@ -159,6 +159,11 @@ impl Acting {
                 self.powers[Work::Fluid] += loads.power(&velocity.velocity, &velocity.gradient_rate);
                 self.total += loads;
             }
+            Load::Walls(radius) => {
+                let loads = beside_walls(at, *radius)?.loads(&at.motion.placement.gradient);
+                self.powers[Work::Fluid] += loads.power(&velocity.velocity, &velocity.gradient_rate);
+                self.total += loads;
+            }
             Load::Neighbours(place) => {
                 let loads = at.spheres().loads(*place, &at.motion.placement.gradient);
                 self.powers[Work::Fluid] += loads.power(&velocity.velocity, &velocity.gradient_rate);
@@ -258,6 +263,14 @@ pub(super) fn add_slopes(
                 immersed.add_to(slopes, gyration);
             }
         }
+        Load::Walls(radius) => {
+            let gradient = &at.motion.placement.gradient;
+            let walls = beside_walls(at, *radius)?;
+            let [by_place, by_rate] = walls.slopes(gradient, (&at.inverse(), &at.motion.velocity.gradient_rate));
+            slopes.loads += walls.loads(gradient);
+            slopes.by_place += by_place;
+            slopes.by_rate += by_rate;
+        }
         Load::Neighbours(place) => {
             let gradient = &at.motion.placement.gradient;
             let moving = (&at.inverse(), &at.motion.velocity.gradient_rate);
@@ -309,6 +322,7 @@ pub fn stored_energy(at: &BodyAt, scratch: &mut Scratch, energy: Energy) -> Resu
                 | Load::OwnFriction(_)
                 | Load::MassFriction(_)
                 | Load::Fluid(..)
+                | Load::Walls(_)
                 | Load::Neighbours(_) => 0.0,
             };
         }

@@ -38,6 +38,7 @@ pub(crate) fn outside_loads(at: &BodyAt, scratch: &mut Scratch) -> Result<Loads,
             | Load::MassFriction(_)
             | Load::SelfGravity(_)
             | Load::Fluid(..)
+            | Load::Walls(_)
             | Load::Neighbours(_) => Party::Space,
         };
         if other.body().is_none() { outside.add(&load, at, scratch) } else { Ok(()) }

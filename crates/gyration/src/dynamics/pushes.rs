@@ -83,6 +83,7 @@ pub fn each_push(at: &BodyAt, scratch: &mut Scratch, mut each: impl FnMut(Push))
             | Load::MassFriction(_)
             | Load::SelfGravity(_)
             | Load::Fluid(..)
+            | Load::Walls(_)
             | Load::Neighbours(_) => {}
         }
         Ok(())

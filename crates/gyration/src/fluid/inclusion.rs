@@ -36,6 +36,8 @@ pub struct Inclusion {
     pub history: Option<History>,
     /// R of a rigid sphere about its centre of mass that feels others like it through the fluid \[m\].
     pub neighbours: Option<f64>,
+    /// R of a rigid sphere about its centre of mass that feels the planes of the model through the fluid \[m\].
+    pub walls: Option<f64>,
 }
 
 /// What the fluid meets.

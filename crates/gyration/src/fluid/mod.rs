@@ -13,6 +13,7 @@
 //! reference    the ellipsoid against which the resistance of a form is measured
 //! table        matrices at the nodes, computed when they are needed, and the error between them
 //! spheres      rigid spheres that feel one another
+//! wall         a rigid sphere beside plane walls
 //! unsteady     a sphere in a fluid with inertia: kernels, relaxation modes, small vibrations
 //! ```
 //!
@@ -33,6 +34,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 pub mod unsteady;
+mod wall;
 
 pub use ambient::{Flow, Fluid};
 pub use ellipsoid::{FluidEllipsoid, FormSlope, Stress};
@@ -43,3 +45,4 @@ pub use inclusion::{Form, ImmersedEllipsoid, Inclusion, MOST_SLENDER, SurfaceFor
 pub use spheres::{ImmersedSpheres, SphereLoads, SpheresTouch};
 pub use surface::ImmersedSurface;
 pub use table::{NoMatrix, ResistanceSource, ResistanceTable, Resolution, UnresolvedForm, largest_error};
+pub use wall::WallLoads;

@@ -153,7 +153,7 @@ fn inclusion(body: &Body, inertia: bool) -> Inclusion {
         }
         _ => Form::Ellipsoid(Vec3::new(0.5, 0.3, 0.4)),
     };
-    Inclusion { inertia, volume: 0.4, center, form, history: None, neighbours: None }
+    Inclusion { inertia, volume: 0.4, center, form, history: None, neighbours: None, walls: None }
 }
 
 /// The same bodies immersed in a fluid, with inertia or without.

@@ -5,11 +5,12 @@ use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::tensor::Mat3;
 
-/// What is not as for two, and who has nobody to feel.
+/// What is not as for two, or for one beside a wall, and who has nobody to feel.
 pub(super) fn notes(model: &Model) -> Vec<String> {
     let inclusion = |body: &usize| model.bodies[*body].inclusion.as_ref();
     let bodies = || 0..model.bodies.len();
     let felt: Vec<usize> = bodies().filter(|body| inclusion(body).is_some_and(|it| it.neighbours.is_some())).collect();
+    let walled = || bodies().filter(|body| inclusion(body).is_some_and(|it| it.walls.is_some()));
     let of_spheres = match felt[..] {
         [] | [_, _] => None,
         [alone] => Some(format!(
@@ -22,7 +23,15 @@ pub(super) fn notes(model: &Model) -> Vec<String> {
             felt.len()
         )),
     };
-    of_spheres.into_iter().chain(unequal(model, &felt)).collect()
+    let sum = "what each of them changes of the drag is added, as if the others were not there";
+    let of_walls = walled()
+        .next()
+        .filter(|_| model.supports.len() > 1)
+        .map(|body| format!("\"{}\" feels {} planes through the fluid: {sum}", model.name(body), model.supports.len()));
+    let both = || walled().find(|body| felt.len() > 1 && felt.binary_search(body).is_ok());
+    let of_both =
+        both().map(|body| format!("\"{}\" feels walls and other spheres through the fluid: {sum}", model.name(body)));
+    of_spheres.into_iter().chain(unequal(model, &felt)).chain(of_walls).chain(of_both).collect()
 }
 
 /// The ratio of radii up to which the series for two spheres leaves out a thousandth in touch.

@@ -106,6 +106,9 @@ impl LeftOut {
         let (mut pairs, mut planes) = (0, 0);
         for (body, center) in &inclusions {
             let mut supports: Vec<usize> = model.contacts_of(*body).map(|it| it.support).collect();
+            if model.bodies[*body].inclusion.as_ref().is_some_and(|it| it.walls.is_some()) {
+                supports.clear();
+            }
             supports.sort_unstable();
             supports.dedup();
             for support in supports {

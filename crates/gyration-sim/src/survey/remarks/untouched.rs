@@ -6,7 +6,9 @@ use gyration::model::Model;
 
 /// What must be told of planes in a scene with bodies that could touch them.
 pub(super) fn notes(model: &Model) -> Vec<String> {
-    if !model.bodies.iter().any(|body| body.solid.surface.is_some()) {
+    let feels_walls = model.bodies.iter().any(|body| body.inclusion.as_ref().is_some_and(|it| it.walls.is_some()));
+    // What feels planes through the fluid feels all of them.
+    if feels_walls || !model.bodies.iter().any(|body| body.solid.surface.is_some()) {
         return Vec::new();
     }
     let is_named = |support: usize| {

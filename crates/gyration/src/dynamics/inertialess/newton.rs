@@ -44,6 +44,7 @@ impl Group {
                     | Load::MassFriction(_)
                     | Load::SelfGravity(_)
                     | Load::Fluid(..)
+                    | Load::Walls(_)
                     | Load::Neighbours(_) => true,
                 };
                 if linear { Ok(()) } else { Err(()) }

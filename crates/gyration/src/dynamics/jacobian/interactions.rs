@@ -64,7 +64,8 @@ pub(in super::super) fn add_interactions(at: &BodyAt, mut each: impl FnMut((usiz
             | Load::OwnFriction(_)
             | Load::MassFriction(_)
             | Load::SelfGravity(_)
-            | Load::Fluid(..) => {
+            | Load::Fluid(..)
+            | Load::Walls(_) => {
                 return Ok(());
             }
         };

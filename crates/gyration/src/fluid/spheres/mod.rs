@@ -20,3 +20,4 @@ mod tensors;
 mod tests;
 
 pub use resistance::{ImmersedSpheres, SphereLoads, SpheresTouch};
+pub(super) use tensors::{Felt, Line, Mat6, Mat6x3, Scalars, Vec6, of_wrench, parts, spin};

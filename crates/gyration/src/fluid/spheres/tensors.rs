@@ -43,6 +43,11 @@ impl Line {
         let distance = apart.norm();
         Self { direction: apart / distance, distance }
     }
+
+    /// From a plane, along its normal.
+    pub fn from_plane(normal: &Vec3, height: f64) -> Self {
+        Self { direction: *normal, distance: height }
+    }
 }
 
 /// A block of 6×6.
