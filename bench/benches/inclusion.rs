@@ -33,7 +33,15 @@ struct Immersed {
 impl Immersed {
     fn new() -> Self {
         let form = Form::Ellipsoid(Vec3::new(1.0, 0.8, 0.6));
-        let inclusion = Inclusion { inertia: true, volume: 2.0, center: Vec3::zeros(), form, history: None };
+        let inclusion = Inclusion {
+            inertia: true,
+            volume: 2.0,
+            center: Vec3::zeros(),
+            form,
+            history: None,
+            neighbours: None,
+            walls: None,
+        };
         let shear = Mat3::new(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         let fluid = Fluid {
             viscosity: 1.0,
