@@ -10,6 +10,7 @@
 
 mod chart;
 mod choice;
+mod multipliers;
 mod shift;
 mod survey;
 #[cfg(test)]
@@ -28,7 +29,8 @@ use gyration::Inadmissible;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{ImplicitOrder, Options};
-use nalgebra::{Complex, ComplexField as _, DMatrix, DVector, Schur};
+use multipliers::eigenvalues;
+use nalgebra::{Complex, ComplexField as _, DMatrix, DVector};
 use std::cmp::Ordering;
 
 /// The tolerance of its runs, if that of the scene is not smaller.
@@ -165,9 +167,7 @@ impl Orbit {
         if trial.misfit > FOUND || off.abs() > FOUND {
             return Err(NoOrbit::NotFound { period: trial.period, misfit: trial.misfit.max(off.abs()) });
         }
-        let schur = Schur::try_new(trial.derivative, f64::EPSILON, SWEEPS);
-        let eigenvalues = schur.ok_or(NoOrbit::NotComputed("multipliers"))?.complex_eigenvalues();
-        let mut multipliers: Vec<Complex<f64>> = eigenvalues.iter().copied().collect();
+        let mut multipliers = eigenvalues(&trial.derivative).ok_or(NoOrbit::NotComputed("multipliers"))?;
         let order = |mu: &Complex<f64>| [mu.modulus(), mu.re, mu.im];
         multipliers.sort_by(|a, b| order(b).partial_cmp(&order(a)).unwrap_or(Ordering::Equal));
         let grows = |mu: &Complex<f64>| (mu - 1.0).modulus() > TRIVIAL && mu.modulus() > 1.0 + STABLE;

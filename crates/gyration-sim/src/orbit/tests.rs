@@ -119,3 +119,34 @@ rest_length = 0.1
     let said = OrbitSurvey::of(&well, &OrbitChoice::Nearest, Some([1, 0, 0])).unwrap_err();
     assert!(said.contains("no `[lattice]`"), "{said}");
 }
+
+#[test]
+fn multipliers_that_lie_evenly_on_a_circle_are_found() {
+    // Cells that change places: the roots of one.
+    let turned = |n: usize| nalgebra::DMatrix::from_fn(n, n, |i, j| f64::from(u8::from((i + 1) % n == j)));
+    for n in [2, 3, 4, 6, 8] {
+        let found = super::multipliers::eigenvalues(&turned(n)).unwrap();
+        let off = found.iter().map(|mu| (mu.powu(n as u32) - 1.0).norm()).fold(0.0, f64::max);
+        assert!(found.len() == n && off < 1e-11, "{n}: {found:?}");
+    }
+    let ring = r#"
+world = { gravity = [0, 0, 0] }
+time = { end = 1, sample = 0.5 }
+lattice = { cell = [[0.12, 0, 0]], repeat = [4, 1, 1], wave = { kappa = [0.25, 0, 0], branch = 0, amplitude = 1e-3 } }
+[[body]]
+name = "a"
+shape = { points = [{ mass = 0.5, at = [0, 0, 0] }] }
+keep = { line = [1, 0, 0] }
+[[spring]]
+between = ["a", "a"]
+cell = [1, 0, 0]
+stiffness = 40
+rest_length = 0.1
+"#;
+    let scene = Scene::parse("scene.toml", ring, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    let scene = crate::complete(scene).unwrap_or_else(|errors| panic!("{errors}"));
+    let found = OrbitSurvey::of(&scene, &OrbitChoice::Nearest, Some([1, 0, 0])).unwrap();
+    // q/ω, ω² = 2k/m.
+    assert!((found.period - 0.5 * std::f64::consts::PI / 160_f64.sqrt()).abs() < 1e-10, "{}", found.period);
+    assert!(found.stable && found.multipliers.len() == 8, "{found:?}");
+}
