@@ -19,8 +19,8 @@ const STIFFNESS: f64 = 40.0;
 /// A ring of masses kept to a line, 0.1 m apart, with bonds, that starts with one wave around it.
 fn ring(cells: usize, amplitude: f64, law: &str) -> String {
     format!(
-        "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 2, sample = 1 }}\nlattice = {{ cell = [[0.1, 0, 0]], repeat \
-         = [{cells}, 1, 1], wave = {{ kappa = [{:?}, 0, 0], branch = 0, amplitude = {amplitude:?} }} }}\n[[body]]\n\
+        "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 2, sample = 1 }}\nlattice = {{ cell = [[0.1, 0, 0]], \
+         repeat = [{cells}, 1, 1], wave = {{ kappa = [{:?}, 0, 0], branch = 0, amplitude = {amplitude:?} }} }}\n[[body]]\n\
          name = \"a\"\nshape = {{ points = [{{ mass = {MASS:?}, at = [0, 0, 0] }}] }}\nkeep = {{ line = [1, 0, 0] }}\n\
          [[bond]]\nbetween = [\"a\", \"a\"]\ncell = [1, 0, 0]\nlaw = \"{law}\"\n",
         1.0 / cells as f64

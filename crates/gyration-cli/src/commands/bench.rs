@@ -40,7 +40,8 @@ pub fn execute(arguments: &BenchArguments) -> Result<u8, CliError> {
 fn machine(arithmetic: &Arithmetic) -> String {
     let processors = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
     format!(
-        "{} {}, processors: {processors}; registers of {} numbers, {} milliard products and sums a second on one thread",
+        "{} {}, processors: {processors}; registers of {} numbers, {} milliard products and sums a second on one \
+         thread",
         std::env::consts::ARCH,
         std::env::consts::OS,
         arithmetic.lanes,
@@ -50,7 +51,8 @@ fn machine(arithmetic: &Arithmetic) -> String {
 
 fn head(arithmetic: &Arithmetic) -> String {
     format!(
-        "{}\ntimes of a processor, the fastest of some runs; other work on the machine makes them longer\n\n{:>12} {:>12} {:>7}  work\n",
+        "{}\ntimes of a processor, the fastest of some runs; other work on the machine makes them longer\n\n\
+         {:>12} {:>12} {:>7}  work\n",
         machine(arithmetic),
         "time",
         "floor",
@@ -81,8 +83,8 @@ fn as_json(arithmetic: &Arithmetic, rows: &[BenchmarkRow]) -> serde_json::Value 
         .iter()
         .map(|row| {
             json!({
-                "key": row.key, "work": row.work, "seconds": row.seconds, "floor": row.floor, "times_floor": row.ratio(),
-                "remark": row.remark,
+                "key": row.key, "work": row.work, "seconds": row.seconds, "floor": row.floor,
+                "times_floor": row.ratio(), "remark": row.remark,
             })
         })
         .collect();
