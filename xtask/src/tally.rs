@@ -66,10 +66,12 @@ impl Tally {
     }
 }
 
-/// The name of a test that failed: `test name ... FAILED`, ` FAIL  file > name` of the viewer.
+/// The name of a test that failed: `test name ... FAILED`, `FAILED file::name - why` of Python, ` FAIL  file > name` of
+/// the viewer.
 fn failure(line: &str) -> Option<&str> {
     let of_rust = line.strip_prefix("test ").and_then(|rest| rest.strip_suffix(" ... FAILED"));
-    of_rust.or_else(|| line.trim_start().strip_prefix("FAIL  ")).map(str::trim)
+    let of_python = || line.strip_prefix("FAILED ").and_then(|rest| rest.split(" - ").next());
+    of_rust.or_else(of_python).or_else(|| line.trim_start().strip_prefix("FAIL  ")).map(str::trim)
 }
 
 /// The number before `word` in "ok. 12 passed; 0 failed; …" or "12 passed | 2 skipped (14)".
@@ -107,7 +109,8 @@ mod tests {
         for line in ["test a::b ... FAILED", "test c ... ok", " FAIL  |unit| tests/x.test.ts > y > z "] {
             tally.read(line);
         }
-        assert_eq!(tally.names, ["a::b", "|unit| tests/x.test.ts > y > z"]);
+        tally.read("FAILED tests/test_x.py::test_y[z] - AssertionError");
+        assert_eq!(tally.names, ["a::b", "|unit| tests/x.test.ts > y > z", "tests/test_x.py::test_y[z]"]);
     }
 
     #[test]
