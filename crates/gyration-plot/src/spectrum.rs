@@ -3,6 +3,8 @@
 use crate::chart::{Axis, Chart, LINE, Series, ShapeChart, Shapes};
 use crate::draw::{Point, Stroke, color};
 use crate::figure::{Figure, Panel};
+use crate::show::title;
+use gyration_record::Recording;
 use gyration_sim::RingSpectrum;
 
 /// Heights of the frames [pt].
@@ -10,10 +12,10 @@ const HEIGHT: f64 = 260.0;
 const ENERGY_HEIGHT: f64 = 110.0;
 /// Parts of the energy, and the radii of the dots of what has at least as much [pt].
 const DOTS: [(f64, f64); 4] = [(1e-1, 6.0), (1e-2, 4.2), (1e-4, 2.8), (1e-6, 1.6)];
-const AS_MUCH: &str = "dots: 10 %, 1 %, 0.01 %, 0.0001 % of the energy and more";
+const AS_MUCH: [&str; 4] = ["dots: 10 %, 1 %,", "0.01 %, 0.0001 %", "of the energy", "and more"];
 
 /// The figure of a spectrum.
-pub fn spectrum(title: &str, found: &RingSpectrum) -> Figure {
+pub fn spectrum(recording: &Recording, found: &RingSpectrum) -> Figure {
     let branches = found.omega.first().map_or(0, Vec::len);
     let axis = (0..3).find(|a| found.kappa.iter().any(|kappa| kappa[*a] != 0.0)).unwrap_or(0);
     let is_line = found.kappa.iter().all(|kappa| (0..3).all(|a| a == axis || kappa[a] == 0.0));
@@ -37,14 +39,14 @@ pub fn spectrum(title: &str, found: &RingSpectrum) -> Figure {
     });
     let shapes = dots.collect();
     let y = Axis::exact("ω", "rad/s", 0.0, if top > 0.0 { 1.06 * top } else { 1.0 });
-    let remarks = vec![AS_MUCH.to_owned()];
+    let remarks = AS_MUCH.map(str::to_owned).to_vec();
     let chart = Chart { title: String::new(), x, y, series, remarks, height: HEIGHT };
     let mut panels = vec![Panel::ShapeChart(ShapeChart { chart, shapes })];
     if found.t.len() > 1 {
         panels.push(Panel::Chart(energies(found)));
     }
     let subtitle = "the energy of a ring in the waves of its cell: mean over time above, all of it over time below";
-    Figure { title: title.to_owned(), subtitle: subtitle.to_owned(), panels }
+    Figure { title: title(recording).to_owned(), subtitle: subtitle.to_owned(), panels }
 }
 
 /// The energy of all branches, and that of the run, over time.

@@ -28,7 +28,7 @@ pub fn execute(arguments: &SpectrumArguments) -> Result<u8, CliError> {
     found.warnings.iter().for_each(|warning| output::say(&format!("warning: {warning}")));
     if let Some(path) = &arguments.plot {
         let format = picture::format(Some(path))?;
-        picture::write(&gyration_plot::spectrum(&name, &found), Some(path), format, PathBuf::new)?;
+        picture::write(&gyration_plot::spectrum(&recording, &found), Some(path), format, PathBuf::new)?;
     }
     let text = match arguments.json {
         true => format!("{}\n", serde_json::json!(found)),
