@@ -6,6 +6,7 @@
 use crate::random::Random;
 use gyration_scene::Scene;
 use std::fmt::Write as _;
+use std::ops::Range;
 use std::path::Path;
 
 /// The lowest and the highest start [m].
@@ -28,6 +29,12 @@ pub enum Throws {
 
 /// The scene of so many dice, up to a time [s].
 pub fn text(count: usize, throws: Throws, end: f64) -> String {
+    text_of(0..count, throws, end)
+}
+
+/// The dice of these numbers alone.
+fn text_of(dice: Range<usize>, throws: Throws, end: f64) -> String {
+    let count = dice.len();
     let mut text = format!(
         r#"
 title = "{count} dice"
@@ -43,7 +50,7 @@ friction = {{ beta = 1e4, nu = 3, d0 = "0.6 mm" }}
 "#
     );
     let side = count.isqrt().max(1);
-    for k in 0..count {
+    for k in dice {
         let key = if throws == Throws::Alike { 0 } else { k as u64 };
         let place = [k % side, k / side].map(|row| SPACING * row as f64);
         // Writing to a string does not fail.
@@ -75,7 +82,15 @@ angular_velocity = {spin:?}
 /// # Panics
 /// If the scene is not valid: a mistake in this file.
 pub fn scene(count: usize, throws: Throws, end: f64) -> Scene {
-    let read = Scene::parse("crowd.toml", &text(count, throws, end), Path::new(""), &[]);
+    part(0..count, throws, end)
+}
+
+/// The dice of these numbers out of a larger crowd, thrown as there.
+///
+/// # Panics
+/// As [`scene`].
+pub fn part(dice: Range<usize>, throws: Throws, end: f64) -> Scene {
+    let read = Scene::parse("crowd.toml", &text_of(dice, throws, end), Path::new(""), &[]);
     read.unwrap_or_else(|errors| panic!("{errors}"))
 }
 
