@@ -321,8 +321,9 @@ impl SphereLoads {
         felt.coupling(own.as_ref(), on, of)
     }
 
-    /// R̃ + R_0 of the spheres, row by row, for viscosity 1.
-    pub fn whole_resistance(&self, spheres: &ImmersedSpheres) -> Vec<Vec<f64>> {
+    /// R̃ + R_0 of the spheres, row by row, for viscosity 1: its properties are tested, and a run needs R̃ alone.
+    #[cfg(test)]
+    pub(super) fn whole_resistance(&self, spheres: &ImmersedSpheres) -> Vec<Vec<f64>> {
         let size = 6 * spheres.radii.len();
         let mut rows: Vec<Vec<f64>> = (0..size).map(|row| self.resistance.row(row).to_vec()).collect();
         for (k, row) in rows.iter_mut().enumerate() {
