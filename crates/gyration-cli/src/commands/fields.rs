@@ -6,6 +6,7 @@ use crate::arguments::FieldArguments;
 use crate::error::{CliError, code};
 use crate::output;
 use crate::waiting::waiting;
+use gyration_plot::Format;
 use gyration_record::export::vtk::{SeriesFile, pvd, vti};
 use gyration_record::{Recording, cannot_write, replace_file};
 use gyration_sim::fields::LocalFields;
@@ -21,6 +22,8 @@ const SHOWN: usize = 40;
 
 /// Prints fields at points, or writes those of a grid.
 pub fn execute(arguments: &FieldArguments) -> Result<u8, CliError> {
+    // Before what takes long.
+    let format = picture::format(arguments.plot.as_deref())?;
     let recording = Recording::open(&arguments.recording)?;
     let points = match (&arguments.at, arguments.grid) {
         (Some(points), _) => FieldPoints::At(points.0.clone()),
@@ -31,7 +34,7 @@ pub fn execute(arguments: &FieldArguments) -> Result<u8, CliError> {
     let found = waiting(reading, true, || FieldSurvey::of(&recording, arguments.width, &points, arguments.every.get()));
     let found = found.map_err(|error| refused(&recording, error))?;
     if let Some(path) = &arguments.plot {
-        draw(&recording, &found, path)?;
+        draw(&recording, &found, path, format)?;
     }
     match &arguments.output {
         Some(path) => write(&found, path)?,
@@ -86,8 +89,7 @@ fn write(found: &FieldSurvey, path: &Path) -> Result<(), CliError> {
 }
 
 /// The picture of the last sample.
-fn draw(recording: &Recording, found: &FieldSurvey, path: &Path) -> Result<(), CliError> {
-    let format = picture::format(Some(path))?;
+fn draw(recording: &Recording, found: &FieldSurvey, path: &Path, format: Format) -> Result<(), CliError> {
     let Some(figure) = gyration_plot::fields(recording, found) else {
         return Err(CliError::arguments("the recording has no samples", "run the scene further"));
     };

@@ -20,6 +20,8 @@ const LEAST: f64 = 1e-9;
 
 /// Prints the strongest branches of a recording, and who gained energy from whom.
 pub fn execute(arguments: &SpectrumArguments) -> Result<u8, CliError> {
+    // Before what takes long.
+    let format = picture::format(arguments.plot.as_deref())?;
     let recording = Recording::open(&arguments.recording)?;
     let name = arguments.recording.display().to_string();
     let found =
@@ -27,7 +29,6 @@ pub fn execute(arguments: &SpectrumArguments) -> Result<u8, CliError> {
     let found = found.map_err(|error| refused(&recording, error))?;
     found.warnings.iter().for_each(|warning| output::say(&format!("warning: {warning}")));
     if let Some(path) = &arguments.plot {
-        let format = picture::format(Some(path))?;
         picture::write(&gyration_plot::spectrum(&recording, &found), Some(path), format, PathBuf::new)?;
     }
     let text = match arguments.json {
