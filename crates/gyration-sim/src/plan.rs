@@ -6,7 +6,7 @@ use gyration::Team;
 use gyration::model::Model;
 use gyration_ode::{ImplicitOrder, Method, Options};
 use gyration_scene::Built;
-use gyration_threads::{Threads, each_on_threads};
+use gyration_threads::{each_on_threads, processors};
 use std::num::NonZeroUsize;
 
 /// How long to run, how finely to sample, how precisely to step.
@@ -59,14 +59,14 @@ impl RunPlan {
     /// The threads among which an evaluation of many bodies is shared out, if there are several: no more than there are
     /// processors, since they look for work all the time.
     pub(crate) fn team(&self) -> Option<Team> {
-        let threads = self.threads?.min(Threads::asked(None).ok()?);
+        let threads = self.threads?.min(processors());
         Team::new(threads.get(), each_on_threads)
     }
 
     /// The plan of a run that has the machine to itself: with as many threads as its scene asks for, else with one for
     /// each processor if there are more than a few bodies.
     pub fn alone(built: &Built) -> Self {
-        let default = || Threads::asked(None).ok().filter(|_| built.model.bodies.len() > FEW);
+        let default = || (built.model.bodies.len() > FEW).then(processors);
         Self { threads: built.plan.threads.or_else(default), ..built.into() }
     }
 }

@@ -1,6 +1,7 @@
 //! How many threads compute.
 
 use std::num::NonZeroUsize;
+use std::sync::OnceLock;
 use std::thread;
 
 /// A page in a browser has one thread, no processes and no clock.
@@ -26,7 +27,7 @@ impl Threads {
     /// None, or more than any machine has processors for.
     pub fn asked(threads: Option<usize>) -> Result<NonZeroUsize, Self> {
         match threads {
-            None => Ok(thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)),
+            None => Ok(processors()),
             Some(threads) if threads > MOST => Err(Self::TooMany(threads)),
             Some(threads) => NonZeroUsize::new(threads).ok_or(Self::None),
         }
@@ -36,4 +37,11 @@ impl Threads {
     pub fn fix(self) -> String {
         format!("ask for 1 to {MOST}, or leave it out for all processors")
     }
+}
+
+/// The processors that this process may use, as they were when it first asked: a system reads a dozen files to answer,
+/// which takes as long as a hundred evaluations of a body.
+pub fn processors() -> NonZeroUsize {
+    static PROCESSORS: OnceLock<NonZeroUsize> = OnceLock::new();
+    *PROCESSORS.get_or_init(|| thread::available_parallelism().unwrap_or(NonZeroUsize::MIN))
 }

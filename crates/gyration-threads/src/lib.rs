@@ -12,7 +12,7 @@ mod own;
 mod share;
 mod team;
 
-pub use count::Threads;
+pub use count::{Threads, processors};
 pub use interruption::{Interrupted, Interruption};
 pub use own::on_own_threads;
 pub use share::{in_order, share};

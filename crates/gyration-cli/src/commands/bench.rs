@@ -38,7 +38,7 @@ pub fn execute(arguments: &BenchArguments) -> Result<u8, CliError> {
 }
 
 fn machine(arithmetic: &Arithmetic) -> String {
-    let processors = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
+    let processors = gyration_threads::processors();
     format!(
         "{} {}, processors: {processors}; registers of {} numbers, {} milliard products and sums a second on one \
          thread",
@@ -92,7 +92,7 @@ fn as_json(arithmetic: &Arithmetic, rows: &[BenchmarkRow]) -> serde_json::Value 
         "version": provenance.version, "commit": provenance.commit,
         "machine": {
             "architecture": std::env::consts::ARCH, "system": std::env::consts::OS,
-            "processors": std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get),
+            "processors": gyration_threads::processors(),
             "arithmetic": arithmetic,
         },
         "rows": rows,
