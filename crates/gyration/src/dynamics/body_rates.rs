@@ -3,7 +3,7 @@
 use super::contractile::ContractileMotion;
 use super::guided::Guided;
 use super::history::RigidHistory;
-use super::loads::{Acting, acting};
+use super::loads::Acting;
 use super::powers::Powers;
 use super::{Scratch, affine, rigid};
 use crate::body::Slots;
@@ -26,37 +26,44 @@ impl Default for BodyLoads {
 }
 
 impl BodyLoads {
-    /// Of a body at an instant.
-    pub fn of(at: &BodyAt, scratch: &mut Scratch) -> Result<Self, Inadmissible> {
-        Ok(match at.kind() {
+    /// Finds those of a body at an instant, in place.
+    pub fn find(&mut self, at: &BodyAt, scratch: &mut Scratch) -> Result<(), Inadmissible> {
+        match at.kind() {
             KindAt::Rigid(_, turn) => {
                 let (wrench, powers) = rigid::wrench(at, turn, scratch)?;
-                Self::Rigid(wrench, powers)
+                *self = Self::Rigid(wrench, powers);
+                Ok(())
             }
-            KindAt::Affine(..) | KindAt::Contractile(..) => Self::Deforming(acting(at, scratch)?),
-        })
+            KindAt::Affine(..) | KindAt::Contractile(..) => {
+                *self = Self::Deforming(Acting::default());
+                match self {
+                    Self::Deforming(acting) => acting.add_all(at, scratch),
+                    Self::Rigid(..) => Ok(()),
+                }
+            }
+        }
     }
 
     /// The rates of the body, written into its slots, and the powers of the works done on it.
-    pub fn balanced(self, at: &BodyAt, slots: &Slots, rates: &mut [f64]) -> Powers {
+    pub fn balanced(&mut self, at: &BodyAt, slots: &Slots, rates: &mut [f64]) -> &Powers {
         match (at.kind(), self) {
-            (KindAt::Rigid(inertia, turn), Self::Rigid(wrench, mut done)) => {
+            (KindAt::Rigid(inertia, turn), Self::Rigid(wrench, done)) => {
                 match RigidHistory::of(at, turn) {
-                    None => rigid::fill(at, inertia, turn, &wrench, slots, rates),
-                    Some(history) => done[Work::Fluid] += history.fill(inertia, &wrench, slots, rates),
+                    None => rigid::fill(at, inertia, turn, wrench, slots, rates),
+                    Some(history) => done[Work::Fluid] += history.fill(inertia, wrench, slots, rates),
                 }
                 if let Some(guided) = Guided::at(at) {
                     guided.hold(&mut rates[slots.velocities()]);
                 }
                 done
             }
-            (KindAt::Affine(affine, gyration), Self::Deforming(mut acting)) => {
-                affine::fill(at, affine, gyration, &mut acting, slots, rates);
-                acting.powers
+            (KindAt::Affine(affine, gyration), Self::Deforming(acting)) => {
+                affine::fill(at, affine, gyration, acting, slots, rates);
+                &acting.powers
             }
-            (KindAt::Contractile(contractile, gyration, decomposition), Self::Deforming(mut acting)) => {
-                ContractileMotion { at, contractile, gyration, decomposition }.fill(&mut acting, slots, rates);
-                acting.powers
+            (KindAt::Contractile(contractile, gyration, decomposition), Self::Deforming(acting)) => {
+                ContractileMotion { at, contractile, gyration, decomposition }.fill(acting, slots, rates);
+                &acting.powers
             }
             _ => unreachable!("loads are balanced by the body that they act on"),
         }
@@ -70,5 +77,7 @@ pub(crate) fn body_rates(
     scratch: &mut Scratch,
     rates: &mut [f64],
 ) -> Result<Powers, Inadmissible> {
-    Ok(BodyLoads::of(at, scratch)?.balanced(at, slots, rates))
+    let mut loads = BodyLoads::default();
+    loads.find(at, scratch)?;
+    Ok(*loads.balanced(at, slots, rates))
 }

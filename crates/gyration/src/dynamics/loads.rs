@@ -36,11 +36,17 @@ pub struct Acting {
 /// [`Inadmissible`] where the state is outside the model.
 pub fn acting(at: &BodyAt, scratch: &mut Scratch) -> Result<Acting, Inadmissible> {
     let mut sum = Acting::default();
-    at.try_each_load(|load| sum.add(&load, at, scratch))?;
+    sum.add_all(at, scratch)?;
     Ok(sum)
 }
 
 impl Acting {
+    /// Adds all loads on a body.
+    #[inline]
+    pub(super) fn add_all(&mut self, at: &BodyAt, scratch: &mut Scratch) -> Result<(), Inadmissible> {
+        at.try_each_load(|load| self.add(&load, at, scratch))
+    }
+
     /// Adds a load.
     #[inline]
     pub(super) fn add(&mut self, load: &Load, at: &BodyAt, scratch: &mut Scratch) -> Result<(), Inadmissible> {

@@ -13,6 +13,7 @@
 
 use super::body_rates::BodyLoads;
 use super::jacobian::{Blocks, add_interactions, body_jacobian};
+use super::powers::Powers;
 use super::{Workspace, inertialess, joints};
 use crate::extended::Numbers;
 use crate::inadmissible::Inadmissible;
@@ -41,20 +42,22 @@ pub fn rates(
     loads.resize(model.bodies.len(), BodyLoads::default());
     find_each(team, loads, Rooms { own: scratch, others: rooms }, |index, loads, room| {
         let at = instant.at(index);
-        if at.body.has_inertia() {
-            *loads = BodyLoads::of(&at, room)?;
+        match at.body.has_inertia() {
+            true => loads.find(&at, room),
+            false => Ok(()),
         }
-        Ok(())
     })?;
     powers.fill(0.0);
-    for (index, loads) in loads.iter().enumerate() {
-        let at = instant.at(index);
-        let done = match at.body.has_inertia() {
-            true => loads.balanced(&at, model.slots(index), rates),
-            false => inertialess::fill(&at, scratch, rates)?,
-        };
+    let mut add = |done: &Powers| {
         for (work, power) in model.works().iter().zip(powers.iter_mut()) {
             *power += done[*work];
+        }
+    };
+    for (index, loads) in loads.iter_mut().enumerate() {
+        let at = instant.at(index);
+        match at.body.has_inertia() {
+            true => add(loads.balanced(&at, model.slots(index), rates)),
+            false => add(&inertialess::fill(&at, scratch, rates)?),
         }
     }
     Ok(())
