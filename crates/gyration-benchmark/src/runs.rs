@@ -5,7 +5,7 @@
 //! Those of dice apart are what they take a few at a time.
 
 use crate::arithmetic::Arithmetic;
-use crate::clock::processor_seconds;
+use crate::clock::{processor_seconds, seconds_each};
 use crate::crowd::{self, Throws};
 use crate::die::Die;
 use crate::kernels::{LOADS_OF_BOX, SLOPES_OF_BOX};
@@ -128,7 +128,8 @@ fn cube(arithmetic: &Arithmetic, kind: &str, (model, start): &(Model, State)) ->
     let tolerances = (10..=24).map(|k| libm::pow(10.0, -0.5 * f64::from(k)));
     let found = tolerances.map(|rtol| (rtol, off(rtol))).find(|(_, error)| *error <= ERROR);
     let (rtol, error) = found.unwrap_or((1e-13, 0.0));
-    let (seconds, (_, statistics)) = fastest(5, || integrate(model, start, Method::Auto, rtol));
+    let statistics = integrate(model, start, Method::Auto, rtol).1;
+    let seconds = seconds_each(|| drop(integrate(model, start, Method::Auto, rtol)));
     BenchmarkRow {
         key: format!("cube/{kind}"),
         work: format!("{kind} cube on a plane to t = {END}, true error {ERROR:.0e}"),
@@ -177,7 +178,8 @@ gradient_rate = [[3, 0, 0], [0, -1.5, 0], [0, 0, -1.5]]
     let found = tolerances.map(|rtol| (rtol, missed(rtol))).find(|(_, missed)| *missed <= BALANCE);
     let (rtol, missed) = found.unwrap_or((1e-10, 0.0));
     let scene = scene(rtol);
-    let (seconds, simulation) = fastest(5, || run_scene(&scene, 1));
+    let simulation = run_scene(&scene, 1);
+    let seconds = seconds_each(|| drop(run_scene(&scene, 1)));
     BenchmarkRow {
         key: "free-cube".to_owned(),
         work: format!("soft cube alone for 2 s, balance {BALANCE:.0e} of its energy"),
