@@ -8,6 +8,6 @@ mod integer;
 mod kernel;
 mod segments;
 
-pub(crate) use ends::{End, HIGHEST_DEGREE, LineMoments};
+pub(crate) use ends::{End, EndKernel, HIGHEST_DEGREE, LineMoments};
 pub use kernel::LineKernel;
 pub(crate) use segments::line_moments;

@@ -13,9 +13,9 @@ use pulp::{Simd, WithSimd};
 
 use super::integrand::LANES;
 use super::ring::RingChunk;
-use crate::simd::{F64s, Log2, Row, SplitExponent, WIDTH, dispatch, fold, integer_power};
-use crate::surface::line::{End, LineKernel, line_moments};
-use crate::surface::{Kernel, MomentRequest};
+use crate::simd::{F64s, Row, WIDTH, dispatch, fold};
+use crate::surface::MomentRequest;
+use crate::surface::line::{EndKernel, LineKernel, line_moments};
 
 /// The rulings of one wall: gaps base = near + reach · versine at one end.
 #[derive(Debug, Clone, Copy)]
@@ -67,21 +67,14 @@ impl Rulings<'_> {
 /// The pass over the rulings for one kernel: compiled for each instruction set.
 pub(crate) struct RulingSweep<'a> {
     pub(crate) rulings: &'a Rulings<'a>,
-    line: &'a LineKernel,
-    exponent: SplitExponent,
-    needs_log: bool,
+    kernel: EndKernel<'a>,
     pub(crate) order: usize,
 }
 
 impl<'a> RulingSweep<'a> {
     pub(crate) fn new(rulings: &'a Rulings<'a>, line: &'a LineKernel, request: &MomentRequest) -> Self {
-        let exponent = match request.kernel {
-            Kernel::Power(exponent) => exponent,
-            Kernel::Log => 1.0,
-        };
-        let needs_log = line.needs_log_in_registers();
         // Degree 1 is the least that a kernel is prepared for.
-        Self { rulings, line, exponent: SplitExponent::new(exponent), needs_log, order: request.order.clamp(1, 3) }
+        Self { rulings, kernel: EndKernel::new(line), order: request.order.clamp(1, 3) }
     }
 }
 
@@ -151,16 +144,17 @@ impl RulingSweep<'_> {
     /// L_j of a cylinder, or ∫ κ t^(j+1) dt of a cone.
     #[inline(always)]
     pub(crate) fn line<S: Simd, const ORDER: usize>(&self, base: F64s<S>) -> [F64s<S>; 4] {
+        let kernel = &self.kernel;
         match self.rulings.other_end {
             OtherEnd::Above(rise) => {
-                let m = line_moments(self.line, &self.end(base), &self.end(base + rise), ORDER);
+                let m = line_moments(kernel.line, &kernel.at(base), &kernel.at(base + rise), ORDER);
                 [m[0], m[1], m[2], m[3]]
             }
             OtherEnd::Common(apex) => {
                 let apex = F64s::splat(base.simd, apex);
                 let apex_nearer = apex.less_than(base);
                 let (near, far) = (apex_nearer.select(apex, base), apex_nearer.select(base, apex));
-                let m = line_moments(self.line, &self.end(near), &self.end(far), ORDER + 1);
+                let m = line_moments(kernel.line, &kernel.at(near), &kernel.at(far), ORDER + 1);
                 // Else t = 1 − x, x from the base.
                 let reversed = [
                     m[0] - m[1],
@@ -171,17 +165,6 @@ impl RulingSweep<'_> {
                 std::array::from_fn(|k| apex_nearer.select(m[k + 1], reversed[k]))
             }
         }
-    }
-
-    #[inline(always)]
-    fn end<S: Simd>(&self, gap: F64s<S>) -> End<S> {
-        let inverse = 1.0 / gap;
-        let log = if self.needs_log { Log2::new(gap) } else { Log2::unread(gap.simd) };
-        let power = match self.line.integer {
-            Some(exponent) => integer_power(gap, inverse, exponent),
-            None => log.negative_power(&self.exponent),
-        };
-        End { gap, inverse, power, log }
     }
 
     /// Adds w T L_j of one register.
