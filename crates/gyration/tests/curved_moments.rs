@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use gyration::surface::curved::{ConeWall, Disk, Hemisphere};
 use gyration::surface::curved::{Patch, Primitive};
-use gyration::surface::{GapField, Kernel, MomentRequest, Moments, Surface};
+use gyration::surface::{GapField, Kernel, MomentPlan, MomentRequest, Moments, Surface};
 use gyration::tensor::{Mat3, SymmetricThird, Vec3};
 use proptest::prelude::*;
 
@@ -279,6 +279,36 @@ proptest! {
             assert_same(&a, &b, &kernel_scales(&expected, &field, kernel, &b), tolerance, name);
         }
     }
+}
+
+/// Integrals around the rim against those over the parallels, point by point: the rim at any distance from the lowest
+/// and the highest point of the sphere, and on them.
+#[test]
+fn tilted_hemispheres_agree_with_sums_over_points() {
+    let surface = Surface::from_patches(vec![Patch::new(Primitive::Hemisphere(Hemisphere { radius: 0.5 }))]);
+    let mut worst: f64 = 0.0;
+    for size in [0.0, 1e-12, 1e-9, 1e-6, 1e-3, 0.05, 0.4, 0.9, 1.0 - 1e-9, 1.0] {
+        for cosine in [size, -size] as [f64; 2] {
+            let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+            for gap in [1e-3, 0.03, 0.7] {
+                // The gap of the whole sphere, as of one end of a capsule.
+                let field = GapField::new(gap + 0.5, Vec3::new(0.6 * sine, -0.8 * sine, cosine));
+                for kernel in
+                    [Kernel::Power(-0.5), Kernel::Log, Kernel::Power(2.5), Kernel::Power(6.0), Kernel::Power(12.0)]
+                {
+                    let plan = MomentPlan::new(vec![MomentRequest { kernel, order: 3 }]);
+                    let mut points = [Moments::default()];
+                    surface.deformed_moments(&field, &Mat3::identity(), &plan, &mut points).unwrap();
+                    let found = moments(&surface, &field, kernel);
+                    let found = error(&found, &points[0], &kernel_scales(&surface, &field, kernel, &points[0]));
+                    // The accuracy that the rules of points promise.
+                    assert!(found < 1e-9, "c_z {cosine}, gap {gap}, {kernel:?}: {found:e}");
+                    worst = worst.max(found);
+                }
+            }
+        }
+    }
+    println!("tilted hemispheres: worst error {worst:.1e}");
 }
 
 /// The far side counts as much as the near one: the rule must see the zero of the gap from there too.

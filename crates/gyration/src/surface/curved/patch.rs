@@ -116,13 +116,12 @@ impl Patch {
             return sphere.add_moments(&self.offset, field, plan, out);
         }
         let own = GapField::new(field.gap(&self.offset), self.rotation.tr_mul(&field.direction));
-        let groups = plan.requests().chunks(GROUP).zip(plan.lines().chunks(GROUP));
-        for ((requests, lines), out) in groups.zip(out.chunks_mut(GROUP)) {
+        for (requests, out) in plan.requests().chunks(GROUP).zip(out.chunks_mut(GROUP)) {
             let mut sums = [Moments::default(); GROUP];
             let sums = &mut sums[..requests.len()];
             let map = match &self.primitive {
                 Primitive::Sphere(_) => unreachable!("a sphere has been added"),
-                Primitive::Hemisphere(p) => p.moments(&own, (requests, lines), sums),
+                Primitive::Hemisphere(p) => p.moments(&own, requests, sums),
                 Primitive::Ellipsoid(p) => p.moments(&own, requests, sums),
                 Primitive::CylinderWall(p) => p.moments(&own, requests, sums),
                 Primitive::Disk(p) => p.moments(&own, requests, sums),

@@ -10,7 +10,6 @@
 
 use std::f64::consts::TAU;
 
-use crate::surface::line::LineKernel;
 use crate::surface::{AxialMoments, GapField, MomentPlan, Moments};
 use crate::tensor::{Mat3, Vec3};
 
@@ -117,20 +116,6 @@ pub(super) fn frame_along(v: &Vec3) -> Mat3 {
     Mat3::from_columns(&[x, z.cross(&x), z])
 }
 
-/// ∫ κ(height + reach · u) u^k du over `from` ≤ u ≤ `to`, k = 0 … order.
-pub(super) fn height_moments(
-    kernel: &LineKernel,
-    height: f64,
-    reach: f64,
-    from: f64,
-    to: f64,
-    order: usize,
-) -> [f64; 4] {
-    let (near, far) = (kernel.sample(height + reach * from), kernel.sample(height + reach * to));
-    let line = kernel.moments(&near, &far, order);
-    shifted(&line, from, to - from)
-}
-
 /// |span| ∫ (from + span x)^k κ dx over [0, 1] from the moments ∫ x^k κ dx, k = 0 … 3.
 #[inline]
 pub(super) fn shifted(line: &[f64], from: f64, span: f64) -> [f64; 4] {
@@ -141,27 +126,4 @@ pub(super) fn shifted(line: &[f64], from: f64, span: f64) -> [f64; 4] {
         length * (a * a * line[0] + b * (2.0 * a * line[1] + b * line[2])),
         length * (a * a * a * line[0] + b * (3.0 * a * a * line[1] + b * (3.0 * a * line[2] + b * line[3]))),
     ]
-}
-
-/// Adds a zone between two parallels of a sphere, from its moments U_k along the axis z.
-pub(super) fn add_zone(radius: f64, order: usize, u: &[f64; 4], out: &mut Moments) {
-    let scale = TAU * radius * radius;
-    out.zeroth += scale * u[0];
-    if order >= 1 {
-        out.first.z += scale * radius * u[1];
-    }
-    if order >= 2 {
-        let squared = scale * radius * radius;
-        let across = 0.5 * squared * (u[0] - u[2]);
-        out.second.m11 += across;
-        out.second.m22 += across;
-        out.second.m33 += squared * u[2];
-    }
-    if order >= 3 {
-        let cubed = scale * radius * radius * radius;
-        let across = 0.5 * cubed * (u[1] - u[3]);
-        out.third.0[2] += across;
-        out.third.0[7] += across;
-        out.third.0[9] += cubed * u[3];
-    }
 }

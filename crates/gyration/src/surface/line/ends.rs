@@ -68,6 +68,15 @@ impl<'a> EndKernel<'a> {
         };
         End { gap, inverse, power, log }
     }
+
+    /// The kernel itself at an end.
+    #[inline(always)]
+    pub fn value<S: Simd>(&self, end: &End<S>) -> F64s<S> {
+        match self.line.kernel {
+            Kernel::Power(_) => end.power,
+            Kernel::Log => end.log.natural(),
+        }
+    }
 }
 
 /// Moments that are all zero.
