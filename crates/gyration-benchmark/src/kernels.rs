@@ -1,4 +1,5 @@
-//! What one call of the mechanics costs: rates and Jacobian of a body near a plane, rates of two bodies that meet.
+//! What one call of the mechanics costs: rates and Jacobian of a body near a plane, rates of two bodies that meet and of
+//! a soft cube alone.
 //!
 //! The floor is that of the moments of a box: twelve triangles, of which each takes 518 products and sums for the loads
 //! of three laws, 1,008 with their derivatives (counted in the instructions of both, `bench/2026-11-21.md`).
@@ -7,6 +8,7 @@ use crate::arithmetic::Arithmetic;
 use crate::clock::seconds_in_batches;
 use crate::near::{SHAPES, near_table};
 use crate::row::{BenchmarkRow, Floor, Size};
+use crate::soft::{free_cube, material};
 use gyration::dynamics::{Workspace, jacobian, rates};
 use gyration::model::Model;
 use gyration::state::State;
@@ -21,66 +23,81 @@ pub const SLOPES_OF_BOX: f64 = 12.0 * 1008.0;
 /// Exponents of repulsion, and of damping and friction.
 const EXPONENTS: (f64, f64) = (6.0, 3.0);
 /// Shapes that meet their equals, and the distance of centres at which they nearly touch \[m\].
-const PAIRS: [(&str, &str, f64); 4] = [
+const PAIRS: [(&str, &str, f64); 5] = [
     ("balls", "{ sphere = { radius = 0.5 } }", 1.02),
     ("boxes", "{ box = { size = [1, 1.2, 0.8] } }", 1.14),
     ("ellipsoids", "{ ellipsoid = { semi_axes = [0.5, 0.6, 0.4] } }", 1.02),
     ("cylinders", "{ cylinder = { radius = 0.5, height = 1 } }", 1.12),
+    ("capsules", "{ capsule = { radius = 0.5, height = 1 } }", 1.02),
 ];
+
+/// A call of the mechanics that is measured.
+pub struct Kernel {
+    /// A short name.
+    pub key: String,
+    /// What it is.
+    pub work: String,
+    call: Box<dyn FnMut()>,
+}
+
+impl Kernel {
+    /// Calls it once.
+    pub fn call(&mut self) {
+        (self.call)();
+    }
+}
+
+/// All that are measured.
+pub fn kernels() -> Vec<Kernel> {
+    let kernel = |key: String, work: String, call| Kernel { key, work, call };
+    let near = SHAPES.map(|(name, shape, height)| {
+        let near = near_table(shape, height, EXPONENTS);
+        kernel(format!("rates/{name}"), format!("rates on a plane: {name}"), call_of_rates(near))
+    });
+    let (_, shape, height) = SHAPES[0];
+    let jacobian = call_of_jacobian(near_table(shape, height, EXPONENTS));
+    let jacobian = kernel("jacobian/box".to_owned(), "Jacobian on a plane: box".to_owned(), jacobian);
+    let pairs = PAIRS.map(|(name, shape, distance)| {
+        let pair = pair(shape, distance);
+        kernel(format!("pair/{name}"), format!("rates of two that meet: {name}"), call_of_rates(pair))
+    });
+    let soft = call_of_rates(free_cube(material("neo_hookean_log")));
+    let soft = kernel("rates/free-cube".to_owned(), "rates of a soft cube alone".to_owned(), soft);
+    near.into_iter().chain([jacobian]).chain(pairs).chain([soft]).collect()
+}
 
 /// Measures them.
 pub fn rows(arithmetic: &Arithmetic, size: Size, add: &mut impl FnMut(BenchmarkRow)) {
     let batch = if size == Size::Whole { 0.2 } else { 0.02 };
-    for (name, shape, height) in SHAPES {
-        let (model, state) = near_table(shape, height, EXPONENTS);
-        let floor = (name == "box").then(|| Floor {
-            seconds: arithmetic.seconds(LOADS_OF_BOX),
-            of: "the moments of twelve triangles".to_owned(),
-        });
-        add(call(
-            format!("rates/{name}"),
-            format!("rates on a plane: {name}"),
-            seconds_of_rates(&model, &state, batch),
-            floor,
-        ));
-    }
-    let (_, shape, height) = SHAPES[0];
-    let (model, state) = near_table(shape, height, EXPONENTS);
-    let floor = Floor { seconds: arithmetic.seconds(SLOPES_OF_BOX), of: "the same with derivatives".to_owned() };
-    let seconds = seconds_of_jacobian(&model, &state, batch);
-    add(call("jacobian/box".to_owned(), "Jacobian on a plane: box".to_owned(), seconds, Some(floor)));
-    for (name, shape, distance) in PAIRS {
-        let (model, state) = pair(shape, distance);
-        add(call(
-            format!("pair/{name}"),
-            format!("rates of two that meet: {name}"),
-            seconds_of_rates(&model, &state, batch),
-            None,
-        ));
+    for mut kernel in kernels() {
+        let seconds = seconds_in_batches(batch, || kernel.call());
+        let floor = match kernel.key.as_str() {
+            "rates/box" => Some((LOADS_OF_BOX, "the moments of twelve triangles")),
+            "jacobian/box" => Some((SLOPES_OF_BOX, "the same with derivatives")),
+            _ => None,
+        };
+        let floor = floor.map(|(operations, of)| Floor { seconds: arithmetic.seconds(operations), of: of.to_owned() });
+        add(BenchmarkRow { key: kernel.key, work: kernel.work, seconds, floor, remark: String::new() });
     }
 }
 
-fn call(key: String, work: String, seconds: f64, floor: Option<Floor>) -> BenchmarkRow {
-    BenchmarkRow { key, work, seconds, floor, remark: String::new() }
-}
-
-fn seconds_of_rates(model: &Model, state: &State, batch: f64) -> f64 {
+fn call_of_rates((model, state): (Model, State)) -> Box<dyn FnMut()> {
     let mut workspace = Workspace::default();
     let (mut slopes, mut powers) = (vec![0.0; model.dimension()], vec![0.0; model.works().len()]);
-    seconds_in_batches(batch, || {
+    Box::new(move || {
         let bodies = black_box(&state.bodies);
-        let done = rates(model, &mut workspace, 0.0, bodies.into(), &mut slopes, &mut powers);
+        let done = rates(&model, &mut workspace, 0.0, bodies.into(), &mut slopes, &mut powers);
         debug_assert!(done.is_ok(), "the bodies do not touch");
         black_box(&slopes);
     })
 }
 
-fn seconds_of_jacobian(model: &Model, state: &State, batch: f64) -> f64 {
+fn call_of_jacobian((model, state): (Model, State)) -> Box<dyn FnMut()> {
     let mut workspace = Workspace::default();
     let mut blocks = [DMatrix::zeros(13, 13)];
-    seconds_in_batches(batch, || {
+    Box::new(move || {
         let bodies = black_box(&state.bodies);
-        let done = jacobian(model, &mut workspace, 0.0, bodies.into(), &mut blocks[..]);
+        let done = jacobian(&model, &mut workspace, 0.0, bodies.into(), &mut blocks[..]);
         debug_assert!(done.is_ok(), "the body does not touch");
         black_box(&blocks);
     })

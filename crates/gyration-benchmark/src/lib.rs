@@ -22,6 +22,7 @@ pub mod soft;
 
 pub use arithmetic::Arithmetic;
 pub use clock::{processor_seconds, seconds_each};
+pub use kernels::{Kernel, kernels};
 pub use near::{SHAPES, near_table, particle_in_shear};
 pub use row::{BenchmarkRow, Floor, Size};
 

@@ -67,11 +67,12 @@ inclusion = {{ inertia = {inertia} }}
 }
 
 /// The shapes measured: name, TOML, height of the centre at which the gap is about 0.03.
-pub const SHAPES: [(&str, &str, f64); 6] = [
+pub const SHAPES: [(&str, &str, f64); 7] = [
     ("box", "{ box = { size = [1, 1, 1] } }", 0.86),
     ("sphere", "{ sphere = { radius = 0.5 } }", 0.53),
     ("cylinder", "{ cylinder = { radius = 0.5, height = 1 } }", 0.71),
     ("cone", "{ cone = { radius = 0.5, height = 1 } }", 0.5),
     ("ellipsoid", "{ ellipsoid = { semi_axes = [0.5, 0.3, 0.4] } }", 0.47),
     ("torus", "{ torus = { major_radius = 0.4, minor_radius = 0.1 } }", 0.32),
+    ("capsule", "{ capsule = { radius = 0.3, height = 0.6 } }", 0.59),
 ];

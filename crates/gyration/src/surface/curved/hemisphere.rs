@@ -224,20 +224,20 @@ impl RimSweep<'_> {
     fn turned<S: Simd, const ORDER: usize>(&self, rim: &End<S>, poles: &[End<S>; 2], x: F64s<S>) -> [F64s<S>; 4] {
         let one = F64s::splat(x.simd, 1.0);
         if self.rim.from == From::Highest || x.smallest() >= 1.0 {
-            return self.from_highest::<S, ORDER>(rim, &poles[1], x);
+            return self.downward::<S, ORDER>(rim, &poles[1], x);
         }
-        let low = self.from_lowest::<S, ORDER>(rim, &poles[0], x);
+        let low = self.upward::<S, ORDER>(rim, &poles[0], x);
         if x.largest() < 1.0 {
             return low;
         }
-        let high = self.from_highest::<S, ORDER>(rim, &poles[1], x);
+        let high = self.downward::<S, ORDER>(rim, &poles[1], x);
         let is_low = x.less_than(one);
         std::array::from_fn(|k| is_low.select(low[k], high[k]))
     }
 
-    /// [½ F_k(1) − F_k/x]/(1 − u).
+    /// [½ F_k(1) − F_k/x]/(1 − u), up the meridian from the lowest point.
     #[inline(always)]
-    fn from_lowest<S: Simd, const ORDER: usize>(&self, rim: &End<S>, pole: &End<S>, x: F64s<S>) -> [F64s<S>; 4] {
+    fn upward<S: Simd, const ORDER: usize>(&self, rim: &End<S>, pole: &End<S>, x: F64s<S>) -> [F64s<S>; 4] {
         let along = line_moments(self.kernel.line, pole, rim, ORDER);
         let splat = |value: f64| F64s::splat(x.simd, value);
         let inverse = 1.0 / (splat(2.0) - x);
@@ -249,9 +249,9 @@ impl RimSweep<'_> {
         })
     }
 
-    /// [∫ κ xᵏ du/(1 − u) − ½ F_k(1)]/x from u to 1.
+    /// [∫ κ xᵏ du/(1 − u) − ½ F_k(1)]/x, from u to 1, down the meridian from the highest point.
     #[inline(always)]
-    fn from_highest<S: Simd, const ORDER: usize>(&self, rim: &End<S>, pole: &End<S>, x: F64s<S>) -> [F64s<S>; 4] {
+    fn downward<S: Simd, const ORDER: usize>(&self, rim: &End<S>, pole: &End<S>, x: F64s<S>) -> [F64s<S>; 4] {
         let m = line_moments(self.kernel.line, rim, pole, ORDER);
         let splat = |value: f64| F64s::splat(x.simd, value);
         let (above, inverse) = (splat(2.0) - x, 1.0 / x);
