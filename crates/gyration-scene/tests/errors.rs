@@ -171,7 +171,19 @@ fn errors_of_inclusions_stand_at_their_place() {
             "from 1e-10",
         ),
         ("inclusion = { history = §true }\npin = [0, 0, 0]", "body.ball.inclusion.history", "pinned", "one of"),
-        ("inclusion = { history = §true }\naffine = {}", "body.ball.inclusion.history", "rigid sphere", "leave"),
+        (
+            "inclusion = { history = §true }\ncontractile = { material = { mooney_rivlin = { c1 = 1, c2 = 0 } }, \
+             contraction_viscosity = 1, drive = { constant = { value = [[0, 0, 0], [0, 0, 0], [0, 0, 0]] } } }",
+            "body.ball.inclusion.history",
+            "drives itself is not followed",
+            "one of `contractile` and `history`",
+        ),
+        (
+            "inclusion = { history = true }\naffine = { kinetic = §\"comoving\" }",
+            "body.ball.affine.kinetic",
+            "a history of the flow asks for",
+            "one of `history` and `kinetic`",
+        ),
         (
             "inclusion = { neighbours = §true }\naffine = {}",
             "body.ball.inclusion.neighbours",
@@ -191,6 +203,10 @@ fn errors_of_inclusions_stand_at_their_place() {
     }
     let text = format!("{}{TIME}{BALL}inclusion = {{ history = §true }}\n", fluid(0.0));
     assert_error(&text, "body.ball.inclusion.history", "the fluid has no density", "fluid.density");
+    let ellipsoid = "shape = { ellipsoid = { semi_axes = [1, 1, 2] } }";
+    let grain = format!("[[body]]\nname = \"grain\"\ndensity = 1\n{ellipsoid}\naffine = {{}}\n");
+    let text = format!("{}{TIME}{grain}inclusion = {{ history = §true }}\n", fluid(1.0));
+    assert_error(&text, "body.grain.inclusion.history", "only of a sphere", "sphere = { radius");
     let cube = "[[body]]\nname = \"cube\"\nmass = 1\nshape = { box = { size = [1, 1, 1] } }\n";
     let text = format!("{}{TIME}{cube}inclusion = {{ neighbours = §true }}\n", fluid(0.0));
     assert_error(&text, "body.cube.inclusion.neighbours", "only of spheres", "sphere = { radius");

@@ -73,6 +73,12 @@ const IMMERSED: &str = r#"
     shape = { sphere = { radius = "1 cm" } }
     density = 3000
     inclusion = { history = true, history_error = 1e-2 }
+    [[body]]
+    name = "pudding"
+    shape = { sphere = { radius = "1 cm" } }
+    density = 3000
+    affine = { material = { neo_hookean = { shear = 100 } } }
+    inclusion = { history = true, history_error = 1e-1 }
 "#;
 
 /// One call of everything that has scratch of its own: what is sized then is not counted.

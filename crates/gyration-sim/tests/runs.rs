@@ -65,6 +65,15 @@ fn resumed_runs_in_a_fluid_leave_the_same_bytes() {
     let error = "body.remembered.inclusion.history_error=1e-3";
     assert_resumes(&gallery("basset", &["time.end=0.02", error]), &[1, 5, 12]);
     assert_resumes(&gallery("tank-tread", &[]), &[2, 10]);
+    let soft = "affine = { material = { neo_hookean = { shear = 200 } } }\nangular_velocity = [3, 0, 1]\n";
+    let text = "time = { end = 0.02, sample = 0.001 }\n\
+                fluid = { viscosity = 1, density = 900, velocity_gradient = [[0, 3, 0], [0, 0, 0], [0, 0, 0]] }\n\
+                [[body]]\nname = \"ball\"\nshape = { sphere = { radius = 2e-3 } }\ndensity = 1500\n\
+                inclusion = { history = true, history_error = 1e-3 }\n";
+    for body in ["", soft] {
+        let scene = Scene::parse("scene.toml", &format!("{text}{body}"), Path::new(""), &[]).unwrap();
+        assert_resumes(&scene, &[1, 5, 12]);
+    }
 }
 
 /// Two bodies that are thrown up, each in a few steps with thousands of samples, an apex among them.

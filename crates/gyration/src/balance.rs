@@ -9,7 +9,9 @@
 
 use crate::body::Body;
 use crate::contractile;
-use crate::dynamics::{Acting, ContractileMotion, Scratch, Workspace, acting, affine_balance, gap_at, stored_energy};
+use crate::dynamics::{
+    Acting, ContractileMotion, Scratch, Workspace, acting, affine_balance, gap_at, of_history, stored_energy,
+};
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, Instant, KindAt, MotionAt};
 use crate::kinematics::{Placement, Velocity};
@@ -74,7 +76,11 @@ pub fn observe(
 pub fn observe_at(at: &BodyAt, acting: &Acting, scratch: &mut Scratch) -> Result<BodyObservation, Inadmissible> {
     let (pressure, effort) = match at.kind() {
         KindAt::Rigid(..) => (None, None),
-        KindAt::Affine(affine, gyration) => (affine_balance(at, affine, gyration, &acting.total).pressure, None),
+        KindAt::Affine(affine, gyration) => {
+            let mut loads = acting.total;
+            loads += of_history(at, scratch)?;
+            (affine_balance(at, affine, gyration, &loads).pressure, None)
+        }
         KindAt::Contractile(contractile, gyration, decomposition) => {
             let moving = ContractileMotion { at, contractile, gyration, decomposition };
             let balance = moving.balance(&acting.total);

@@ -9,7 +9,7 @@
 //! aspect ratio r moves on an orbit C = √((p·g)² + (p·e)²/r²)/|p·v| (Leal and Hinch), told as C/(1 + C). What does not
 //! apply is NaN. Source: Batchelor (1970); `docs/theory-fluid.md`.
 
-use crate::dynamics::{RigidImmersion, Scratch, beside_walls, history_reaction, immersion};
+use crate::dynamics::{HistoryReaction, RigidImmersion, Scratch, beside_walls, immersion};
 use crate::fluid::{Fluid, Immersed};
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, KindAt, MotionAt};
@@ -60,18 +60,28 @@ struct Tractions {
 pub fn observe_immersion(at: &BodyAt, scratch: &mut Scratch) -> Result<Option<ImmersionObservation>, Inadmissible> {
     let Some(fluid) = &at.model.fluid else { return Ok(None) };
     let tractions = match at.kind() {
-        KindAt::Rigid(_, turn) => rigid(at, turn, scratch)?,
+        KindAt::Rigid(_, turn) => rigid(at, turn)?,
         KindAt::Affine(..) | KindAt::Contractile(..) => deformable(at, fluid)?,
     };
+    let remembered = HistoryReaction::of(at, scratch)?;
+    let tractions = tractions.map(|tractions| tractions.with(remembered.as_ref()));
     Ok(tractions.map(|tractions| told(fluid, at.time, at.motion, &tractions)))
 }
 
-fn rigid(at: &BodyAt, turn: &Turn, scratch: &mut Scratch) -> Result<Option<Tractions>, Inadmissible> {
+impl Tractions {
+    /// With those of the history, if the body has one.
+    fn with(self, history: Option<&HistoryReaction>) -> Self {
+        let Some(history) = history else { return self };
+        Self { drag: self.drag + history.force, couple: self.couple + history.couple, ..self }
+    }
+}
+
+fn rigid(at: &BodyAt, turn: &Turn) -> Result<Option<Tractions>, Inadmissible> {
     let (Some(inclusion), Some(immersed)) = (&at.body.inclusion, RigidImmersion::of(at)) else { return Ok(None) };
     let rotation = &at.motion.placement.gradient;
     let steady = immersed.drag.force();
     let arm = rotation * inclusion.center;
-    let (mut force, mut torque) = history_reaction(at, turn, scratch)?;
+    let (mut force, mut torque) = (Vec3::zeros(), Vec3::zeros());
     let mut dissipation = immersed.drag.dissipation(&turn.spin);
     if let Some(radius) = inclusion.walls {
         let walls = beside_walls(at, radius)?;

@@ -2,16 +2,19 @@
 //! objectivity.
 
 use crate::moving::*;
-use gyration::affine::Kinetic;
+use gyration::affine::{AffineBody, Kinetic, Viscosity};
 use gyration::balance::observe;
-use gyration::body::{Body, BodyKind, RigidInertia};
+use gyration::body::{Affine, Body, BodyKind, RigidInertia, Solid};
 use gyration::contact::{AreaMeasure, Contact, LawSet};
 use gyration::dynamics::Workspace;
+use gyration::fluid::{Fluid, Form};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::ledger::{Energy, Work};
 use gyration::load::Frame;
+use gyration::material::{Material, MooneyRivlin};
 use gyration::model::Model;
-use gyration::shape::{Cuboid, Shape};
+use gyration::shape::{Cuboid, Shape, Sphere};
+use gyration::signal::{Signal, Wave};
 use gyration::state::{RigidStart, Start, State};
 use gyration::tensor::{Mat3, Vec3};
 use proptest::prelude::*;
@@ -67,6 +70,22 @@ proptest! {
                 assert_power_is_the_rate_of_energy(&model, &state);
             }
         }
+    }
+
+    #[test]
+    fn jacobian_and_power_of_spheres_whose_strain_the_fluid_remembers_are_those_of_their_rates(
+        numbers in numbers(24), exponents in exponents(),
+    ) {
+        let free = Variant { incompressible: false, pinned: false, frame: Frame::Space };
+        let [_, sphere, ..] = shapes();
+        let spheres = [false, true].map(|incompressible| body(sphere.clone(), Variant { incompressible, ..free }));
+        let model = Model::new(Vec3::new(0.3, -0.2, -9.81), supports(), spheres);
+        let model = with_history(attached(model, exponents, AreaMeasure::DeformedArea), true);
+        prop_assert!(model.bodies.len() == 2);
+        let mut state = state(&model, &numbers);
+        shake_modes(&model, &mut state);
+        assert_jacobian_is_the_derivative(&model, &state);
+        assert_power_is_the_rate_of_energy(&model, &state);
     }
 
     #[test]
@@ -186,6 +205,59 @@ proptest! {
         for (a, b) in powers.iter().zip(&powers_turned) {
             prop_assert!((a - b).abs() < 1e-11 * (a.abs() + scale), "{a} {b}");
         }
+    }
+}
+
+/// With the density and the viscosity of the fluid, a sphere is fluid: at every instant at which it moves with the
+/// undisturbed flow it goes on to do so.
+#[test]
+fn sphere_of_the_fluid_itself_goes_with_the_flow() {
+    let (radius, viscosity, density, time) = (0.5, 0.8, 0.6, 0.37);
+    let shape = Shape::Sphere(Sphere { radius });
+    let mass = shape.mass_properties(density);
+    for incompressible in [false, true] {
+        let material = incompressible.then_some(Material::MooneyRivlin(MooneyRivlin { c1: 0.0, c2: 0.0, bulk: None }));
+        let friction = Viscosity { kirchhoff: 0.0, shear: viscosity, bulk: 0.0 };
+        let interior = AffineBody::new(&mass, None, material, friction).unwrap();
+        let own = Affine { interior, couple: None, resistances: vec![] };
+        let [_, sphere, ..] = shapes();
+        let free = Variant { incompressible, pinned: false, frame: Frame::Space };
+        let soft = Body { kind: BodyKind::Affine(Box::new(own)), ..body(sphere, free) };
+        let soft = Body { solid: Solid::new(shape.clone(), mass).into(), ..soft };
+        let model = with_history(Model::new(Vec3::new(0.3, -0.2, -9.81), vec![], vec![soft]), true);
+        // A flow without vorticity, of which the pressure keeps account.
+        let strain = Mat3::new(0.3, 0.6, -0.4, 0.6, -0.5, 0.7, -0.4, 0.7, 0.2);
+        let wave = |amplitude| Signal::Sine(Wave { amplitude, frequency: 0.6, phase: 0.2 });
+        let gradient = Signal::Sum(vec![Signal::Constant(0.5 * strain), wave(strain)]);
+        let model = model.in_fluid(Fluid { viscosity, density, gradient, ..fluid() });
+        let inclusion = |body: &Arc<Body>| {
+            let mut own = (**body).clone();
+            let inclusion = own.inclusion.as_mut().unwrap();
+            (inclusion.center, inclusion.volume) = (Vec3::zeros(), own.solid.mass.volume);
+            inclusion.form = Form::Ellipsoid(Vec3::repeat(radius));
+            own
+        };
+        let bodies: Vec<Body> = model.bodies.iter().map(inclusion).collect();
+        let model = model.with_bodies(bodies);
+        let around = model.fluid.clone().unwrap();
+        let (flow, position) = (around.flow(time), Vec3::new(0.4, -0.7, 0.2));
+        let placement = Placement { position, gradient: Mat3::identity() };
+        let velocity = Velocity { velocity: flow.at(&position), gradient_rate: flow.gradient };
+        let mut state = State { time, ..State::start(&model, &[Start::Affine(placement, velocity)]) };
+        // Modes that have come to rest with the fluid.
+        let slots = model.slots(0);
+        state.bodies[slots.extra()].fill(0.0);
+        let (rates, _) = evaluate(&model, time, &state.bodies);
+        let (changing, spreading) = around.rate(time, &position);
+        let linear =
+            Vec3::from_column_slice(&rates[slots.velocity()]) - (changing + flow.gradient * flow.at(&position));
+        let strained = Mat3::from_column_slice(&rates[slots.rate()]) - (spreading + flow.gradient * flow.gradient);
+        // A compressible sphere is pressed by the pressure from its centre outward, ⅒ m_f R² tr L∞².
+        let pressed = 0.1 * mass.mass * radius * radius * (flow.gradient * flow.gradient).trace();
+        let grown = pressed / (1.2 * mass.mass * radius * radius);
+        let expected = if incompressible { Mat3::zeros() } else { Mat3::from_diagonal_element(grown) };
+        assert!(linear.norm() < 1e-12, "{linear}");
+        assert!((strained - expected).norm() < 1e-12, "{strained}");
     }
 }
 

@@ -1,10 +1,12 @@
 //! What a body is built among: the files beside the scene, the length of the run, the supports, the fluid.
 
+use super::signal::Value;
 use crate::check::PartialScene;
 use crate::document::Document;
 use crate::file::{Flow, Fluid};
 use crate::quantity::AnyQuantity;
 use crate::tree::Node;
+use gyration::tensor::Mat3;
 use gyration_files::Files;
 use std::collections::BTreeMap;
 
@@ -25,6 +27,8 @@ pub(crate) struct SceneContext<'a> {
     pub(super) supports_move: bool,
     /// Whether the undisturbed fluid has a flow.
     pub(super) fluid_flows: bool,
+    /// Whether that flow strains at a time.
+    pub(super) fluid_strains: bool,
     /// η \[Pa s\] and ρ_f \[kg/m³\], if the file says so without error.
     pub(super) fluid: Option<[f64; 2]>,
     /// G of bodies on themselves \[N m²/kg²\], if the scene has that gravity.
@@ -51,11 +55,23 @@ impl<'a> SceneContext<'a> {
                 .iter()
                 .any(|support| support.get("shape").is_none() && support.get("motion").is_some()),
             fluid_flows: partial.fluid.as_ref().is_some_and(flows),
+            fluid_strains: partial.fluid.as_ref().is_some_and(strains),
             has_fluid: document.root.get("fluid").is_some(),
             fluid: partial.fluid.as_ref().map(|fluid| [fluid.viscosity.value(), fluid.density.value()]),
             self_gravity: partial.world.self_gravity.map(|gravity| gravity.constant.value()),
             constants,
         }
+    }
+}
+
+/// Whether a fluid strains far from the bodies.
+fn strains(fluid: &Fluid) -> bool {
+    match &fluid.velocity_gradient {
+        Flow::Steady(rows) => {
+            let gradient = rows.tensor();
+            gradient + gradient.transpose() != Mat3::zeros()
+        }
+        Flow::Changing(_) => true,
     }
 }
 

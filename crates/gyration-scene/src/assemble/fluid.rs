@@ -220,10 +220,19 @@ impl ImmersedBody<'_> {
         reporter: &mut Reporter<'_>,
     ) -> bool {
         let key = key.key("history");
-        let sphere = matches!(self.shape, Shape::Sphere(_)) && matches!(self.kind, BodyKind::Rigid(_));
+        let sphere = matches!(self.shape, Shape::Sphere(_));
         let centered = self.mass.center.norm() <= ROUNDING * self.shape.size();
         let faults = [
-            (!sphere, "only of a rigid sphere is the history of the flow known in closed form", "leave `history` out"),
+            (
+                !sphere,
+                "only of a sphere is the history of the flow known in closed form",
+                "write `shape = { sphere = { radius = … } }`, or leave `history` out",
+            ),
+            (
+                matches!(self.kind, BodyKind::Contractile(_)),
+                "the history of the flow about a body that drives itself is not followed",
+                "leave out one of `contractile` and `history`",
+            ),
             (
                 !written.inertia,
                 "a body without inertia has no history",
@@ -257,7 +266,9 @@ impl ImmersedBody<'_> {
             return Some(None);
         };
         let error = written.history_error.unwrap_or(HISTORY_ERROR);
-        match History::of_sphere(*radius, fluid, end, error) {
+        let strains = context.fluid_strains || matches!(self.kind, BodyKind::Affine(_));
+        let history = if strains { History::of_straining_sphere } else { History::of_sphere };
+        match history(*radius, fluid, end, error) {
             Ok(history) => Some(Some(history)),
             Err(unresolved) => {
                 let help = "look at `fluid.viscosity`, `fluid.density`, the radius and `time.end`: R²ρ/η is the time \

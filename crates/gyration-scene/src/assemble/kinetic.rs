@@ -24,12 +24,14 @@ pub(super) fn kinetic(
     let Some(written) = affine.kinetic else { return Some(None) };
     let key = key.key(kind).key("kinetic");
     let has_inertia = value.inclusion.as_ref().is_none_or(|inclusion| inclusion.inertia);
+    let has_history = value.inclusion.as_ref().is_some_and(|inclusion| inclusion.history);
     let faults = [
         (value.contractile.is_some(), "a body that drives itself", "make the body `affine`"),
         (is_incompressible, "a volume that is kept", "give the material a `bulk` modulus, or leave `kinetic` out"),
         (value.pin.is_some(), "a pin", "leave out one of `pin` and `kinetic`"),
         (value.keep.is_some(), "a guide", "leave out one of `keep` and `kinetic`"),
         (!has_inertia, "a body without inertia", "write `inertia = true`, or leave `kinetic` out"),
+        (has_history, "a history of the flow", "leave out one of `history` and `kinetic`"),
         (context.has_lattice, "a lattice", "leave out one of `lattice` and `kinetic`"),
     ];
     let mut fits = true;

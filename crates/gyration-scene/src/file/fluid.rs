@@ -46,7 +46,8 @@ pub struct Inclusion {
     /// Whether the body has inertia; without, it moves at the velocities that the balance of forces gives.
     #[serde(default = "yes")]
     pub inertia: bool,
-    /// Whether the fluid remembers the motion of a rigid sphere: added mass and history force. Needs a fluid density.
+    /// Whether the fluid remembers the motion of a sphere, rigid or affine: added mass and history force. Needs a fluid
+    /// density.
     #[serde(default)]
     pub history: bool,
     /// Whether the body feels others that say so through the fluid, and they feel it. Of rigid spheres.

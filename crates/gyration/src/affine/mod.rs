@@ -4,9 +4,10 @@
 //!
 //! V reference volume, J Euler tensor, M affine moment of the loads, φ energy of the material, τ viscous Kirchhoff
 //! stress, π the pressure of an incompressible body (`constraint`). Everything here is a function of P, Ṗ and M: no
-//! state, no time, no contact. Derivatives are in `slopes`, other kinetic energies in `kinetic`. Source:
-//! `docs/theory-affine.md`.
+//! state, no time, no contact. Derivatives are in `slopes`, other kinetic energies in `kinetic`, the inertia of a fluid
+//! in `added`. Source: `docs/theory-affine.md`.
 
+mod added;
 mod anisotropic;
 mod constraint;
 mod elastic;
@@ -20,6 +21,8 @@ mod solution;
 mod terms;
 mod viscosity;
 
+pub use added::AddedInertia;
+pub(crate) use added::{Accelerated, AddedBalance};
 pub use anisotropic::AnisotropicFriction;
 pub(crate) use constraint::Constraint;
 pub use constraint::Correction;

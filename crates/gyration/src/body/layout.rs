@@ -3,7 +3,7 @@
 //! | kind        | position | attitude       | velocity | rate  | extra                            |
 //! |-------------|----------|----------------|----------|-------|----------------------------------|
 //! | rigid       | p₀ (3)   | quaternion (4) | ṗ₀ (3)   | Ω (3) | relaxation modes of the history  |
-//! | affine      | p₀ (3)   | P (9)          | ṗ₀ (3)   | Ṗ (9) |                                  |
+//! | affine      | p₀ (3)   | P (9)          | ṗ₀ (3)   | Ṗ (9) | relaxation modes of the history  |
 //! | contractile | p₀ (3)   | P (9)          | ṗ₀ (3)   | Ṗ (9) | G (9), unless it is prescribed   |
 //!
 //! Ω is in body axes; P, Ṗ and G stand column by column. A pinned body has neither position nor velocity, a body
@@ -36,9 +36,10 @@ impl Slots {
 
     fn laid_out(body: &Body, start: usize, moves: usize) -> Self {
         let free = if body.pin.is_some() { 0 } else { 3 };
+        let modes = body.history().map_or(0, History::dimension);
         let (attitude, rate, extra) = match &body.kind {
-            BodyKind::Rigid(_) => (4, 3, body.history().map_or(0, History::dimension)),
-            BodyKind::Affine(_) => (9, 9, 0),
+            BodyKind::Rigid(_) => (4, 3, modes),
+            BodyKind::Affine(_) => (9, 9, modes),
             BodyKind::Contractile(contractile) => (9, 9, 9 * usize::from(contractile.contraction.is_driven())),
         };
         let mut end = start;

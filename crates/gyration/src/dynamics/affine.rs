@@ -1,7 +1,10 @@
 //! An affine body: the balance solved for its rates.
 //!
 //!   m p̈₀ = m g + f,   P̈ J = M − V S;   pinned at r: P̈ J_p = M − (f + m g) ⊗ r − V S
+//!
+//! That of a sphere whose motion the fluid remembers is in `affine_history`.
 
+use super::affine_history::AffineHistory;
 use super::guided::GuidedStrain;
 use super::loads::Acting;
 use crate::affine::{AffineBalance, AffineBody, Gyration};
@@ -65,13 +68,20 @@ pub(super) fn fill(
     slots: &Slots,
     rates: &mut [f64],
 ) {
-    let balance = balance(at, affine, gyration, &acting.total);
+    let remembered = AffineHistory::of(at, affine, gyration);
+    let balance = match &remembered {
+        Some(sphere) => sphere.balance(&acting.total),
+        None => balance(at, affine, gyration, &acting.total),
+    };
     acting.powers[Work::Viscosity] -= balance.dissipation;
     if let Some(pressure) = balance.pressure {
         let growth = gyration.velocity_gradient.trace();
         acting.powers[Work::Constraint] += pressure * affine.interior.volume * growth;
     }
-    write(at, acting, &balance.acceleration, slots, rates);
+    match &remembered {
+        Some(sphere) => sphere.write(acting, &balance.acceleration, slots, rates),
+        None => write(at, acting, &balance.acceleration, slots, rates),
+    }
 }
 
 /// Writes the rates of p₀, P, ṗ₀ and Ṗ, those of the velocities from the force and P̈.

@@ -6,13 +6,12 @@
 //! feels has the force of that history, added mass included, among its drag. Source: `docs/theory-affine.md`.
 
 use super::Scratch;
-use super::history_reaction::history_reaction;
+use super::history_reaction::of_history;
 use super::loads::Acting;
 use crate::acting::LoadKind;
 use crate::inadmissible::Inadmissible;
-use crate::instant::{BodyAt, KindAt, MotionAt};
+use crate::instant::{BodyAt, MotionAt};
 use crate::load::Loads;
-use crate::tensor::cross_matrix;
 
 /// f [N] and M [N m] of what acts on a body, by kind; M about the centre of mass or the pin.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -52,16 +51,6 @@ pub(crate) fn linear_friction(at: &BodyAt, scratch: &mut Scratch) -> Result<Load
         LoadKind::Contact | LoadKind::Pair | LoadKind::Spring | LoadKind::Drag | LoadKind::Load => Ok(()),
     })?;
     Ok(about_pin(at, &friction.total))
-}
-
-/// The loads of a fluid's memory: T as the affine moment ½ [T]× R, which turns and does not strain.
-///
-/// # Errors
-/// [`Inadmissible`] where the state is outside the model.
-pub(crate) fn of_history(at: &BodyAt, scratch: &mut Scratch) -> Result<Loads, Inadmissible> {
-    let KindAt::Rigid(_, turn) = at.kind() else { return Ok(Loads::default()) };
-    let (force, torque) = history_reaction(at, turn, scratch)?;
-    Ok(Loads { force, moment: 0.5 * cross_matrix(&torque) * at.motion.placement.gradient })
 }
 
 /// Loads about the centre of mass, about the pin if there is one.

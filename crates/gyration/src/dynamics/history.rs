@@ -4,12 +4,13 @@
 //!
 //! f and τ with the loads of the history (`fluid::HistoryLoads`) that do not depend on the accelerations.
 
+use super::history_reaction::HistoryReaction;
 use crate::body::{RigidInertia, Slots};
 use crate::fluid::{History, HistoryLoads};
 use crate::instant::MotionAt;
 use crate::load::Wrench;
 use crate::state::Turn;
-use crate::tensor::{Mat3, Vec3};
+use crate::tensor::{Mat3, Vec3, cross_matrix};
 
 /// Such a sphere at one instant.
 #[derive(Debug, Clone, Copy)]
@@ -29,8 +30,8 @@ impl<'a> RigidHistory<'a> {
         let fluid = model.fluid.as_deref()?;
         let history = body.history()?;
         let flow = fluid.flow(time);
-        let spin = motion.placement.gradient * turn.spin;
-        let moving = (&motion.placement.position, &at.velocity(), &spin);
+        let gradient = cross_matrix(&(motion.placement.gradient * turn.spin));
+        let moving = (&motion.placement.position, &at.velocity(), &gradient);
         let loads = history.loads((fluid, &flow, time), moving, at.extra());
         Some(Self { at, history, loads, turn, flow: flow.gradient })
     }
@@ -45,6 +46,17 @@ impl<'a> RigidHistory<'a> {
     /// m + m_a.
     pub fn mass(&self) -> f64 {
         self.at.body.solid.mass.mass + self.history.added_mass
+    }
+
+    /// Force and moment of history and added mass at p̈₀ and Ω̇.
+    pub fn reaction(&self, linear: &Vec3, angular: &Vec3) -> HistoryReaction {
+        let turned = self.at.motion.placement.gradient * angular;
+        let torque = self.loads.torque - self.history.added_inertia * turned;
+        let mut couple = 0.5 * cross_matrix(&torque);
+        if let Some(strain) = &self.loads.strain {
+            couple += strain.couple;
+        }
+        HistoryReaction { force: self.loads.force - self.history.added_mass * linear, couple }
     }
 
     /// Solves the balance for the rates; gives the power of the history's loads [W].

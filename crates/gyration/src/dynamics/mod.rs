@@ -1,11 +1,12 @@
 //! From an instant to the rates and their Jacobian: loads, balance, inertialess bodies.
 //!
 //! `rates` is the file to read first. `loads` is the one loop over what acts on a body; `rigid`, `affine` and
-//! `contractile` solve the balance of each kind, `history` that of a sphere whose past motion the fluid feels,
-//! `body_rates` that of any body, `guided` and `reaction` what a guide makes of it; `jacobian` differentiates it;
-//! `inertialess` stands above both, `joints` above these, and `rates` over all.
+//! `contractile` solve the balance of each kind, `history` and `affine_history` that of a sphere whose past motion the
+//! fluid feels, `body_rates` that of any body, `guided` and `reaction` what a guide makes of it; `jacobian`
+//! differentiates it; `inertialess` stands above both, `joints` above these, and `rates` over all.
 
 mod affine;
+mod affine_history;
 mod body_rates;
 mod by_kind;
 mod contact_parts;
@@ -45,9 +46,9 @@ pub use reaction::reaction;
 
 pub(crate) use affine::{balance as affine_balance, moment};
 pub(crate) use body_rates::{BodyLoads, body_rates};
-pub(crate) use by_kind::{about_pin, linear_friction, of_history};
+pub(crate) use by_kind::{about_pin, linear_friction};
 pub(crate) use contractile::ContractileMotion;
-pub(crate) use history_reaction::history_reaction;
+pub(crate) use history_reaction::{HistoryReaction, of_history};
 pub(crate) use immersed::{RigidImmersion, beside_walls, immersion};
 pub(crate) use outside::outside_loads;
 

@@ -6,7 +6,7 @@
 //! pins and guides aside. Source: `docs/fields.md`.
 
 use super::Scratch;
-use super::by_kind::of_history;
+use super::history_reaction::of_history;
 use super::loads::Acting;
 use crate::acting::Load;
 use crate::inadmissible::Inadmissible;

@@ -1,4 +1,4 @@
-//! The history of a rigid sphere in a fluid with inertia, as loads and state.
+//! The history of a sphere in a fluid with inertia, as loads and state.
 //!
 //!   f = −6πηR Σ c_k (w − y_k) + m_a (du∞/dt − p̈₀) + m_f Du∞/Dt,       m_a = 6πηR (τ/9 + rest)
 //!   T = −8πηR³ Σ C_k (ω_w − Y_k) + I_a (dω∞/dt − ω̇),                    I_a = 8πηR³ rest
@@ -7,9 +7,11 @@
 //! beside the steady drag. w = ṗ₀ − u∞ and ω_w = ω − ½ rot u∞ are taken along the path of the sphere, d/dt = ∂/∂t +
 //! ṗ₀·∇, and Du∞/Dt along that of the fluid, whose pressure gradient it is. y_k and Y_k are in the axes of space. m_a
 //! and I_a stand on the left of the balance. The fastest modes trail w by some 1e-12 of it, with weights of 1e6: the
-//! differences w − y_k are taken with the low halves of the state. Source: `history`; Maxey and Riley (1983).
+//! differences w − y_k are taken with the low halves of the state. A sphere that deforms, and one in a flow that
+//! strains, has the history of its strain as well (`straining`). Source: `unsteady`; Maxey and Riley (1983).
 
 use super::ambient::{Flow, Fluid};
+use super::straining::{STRAIN_NUMBERS, StrainHistory, StrainLoads};
 use super::unsteady::{Exponentials, UnresolvedHistory};
 use crate::extended::{Extended, ExtendedVec3, Numbers};
 use crate::tensor::{Mat3, Vec3, axial};
@@ -20,8 +22,10 @@ use std::f64::consts::PI;
 pub struct History {
     /// Of its translation.
     pub translation: Exponentials,
-    /// Of its rotation.
+    /// Of its rotation, and of its strain.
     pub rotation: Exponentials,
+    /// That of the strain, if it counts.
+    pub strain: Option<StrainHistory>,
     /// 6πηR \[N s/m\].
     drag: f64,
     /// 8πηR³ \[N m s\].
@@ -53,6 +57,8 @@ pub struct HistoryLoads {
     slip: ExtendedVec3,
     /// ω_w.
     spin_slip: ExtendedVec3,
+    /// Of the strain, if that counts.
+    pub strain: Option<StrainLoads>,
 }
 
 impl History {
@@ -79,24 +85,44 @@ impl History {
             added_inertia: spin_drag * rotation.rest,
             translation,
             rotation,
+            strain: None,
         })
+    }
+
+    /// The same of a sphere whose strain against the fluid counts.
+    ///
+    /// # Errors
+    /// [`UnresolvedHistory`] for numbers out of all proportion.
+    pub fn of_straining_sphere(radius: f64, fluid: [f64; 2], span: f64, error: f64) -> Result<Self, UnresolvedHistory> {
+        let mut history = Self::of_sphere(radius, fluid, span, error)?;
+        let strain = StrainHistory::of_sphere(radius, fluid, &history.rotation, history.added_inertia);
+        history.strain = Some(strain);
+        Ok(history)
     }
 
     /// How many numbers of state it has.
     pub fn dimension(&self) -> usize {
+        let of_strain = self.strain.map_or(0, |_| STRAIN_NUMBERS * self.rotation.rates.len());
+        self.strain_modes() + of_strain
+    }
+
+    /// The place of the first mode of the strain.
+    pub(crate) fn strain_modes(&self) -> usize {
         3 * (self.translation.rates.len() + self.rotation.rates.len())
     }
 
-    /// The loads, of a sphere at a place that moves and turns in the axes of space; `modes` are y_k, then Y_k.
+    /// The loads, of a sphere at a place with the velocity of its centre and the gradient L; `modes` are y_k, then Y_k,
+    /// then those of the strain.
     pub(crate) fn loads(
         &self,
         (fluid, flow, time): (&Fluid, &Flow, f64),
-        (place, velocity, spin): (&Vec3, &ExtendedVec3, &Vec3),
+        (place, velocity, gradient): (&Vec3, &ExtendedVec3, &Mat3),
         modes: Numbers,
     ) -> HistoryLoads {
         let ambient = flow.at(place);
         let moving = Vec3::from(velocity.map(Extended::value));
         let slip = [0, 1, 2].map(|i| velocity[i] - Extended::from(ambient[i]));
+        let spin = 0.5 * axial(gradient);
         let turning: Vec3 = spin - 0.5 * axial(&flow.gradient);
         let spin_slip = [0, 1, 2].map(|i| Extended::from(turning[i]));
         let (changing, spreading) = fluid.rate(time, place);
@@ -108,6 +134,9 @@ impl History {
         let force = self.added_mass * (changing + l * moving) + pressed - self.drag * behind;
         let torque = self.added_inertia * 0.5 * axial(&spreading) - self.spin_drag * spun_behind;
         let by_spin = -self.spin_drag * spin_weight;
+        let stirred = (fluid, &flow.gradient, time);
+        let of_strain =
+            |strain: &StrainHistory| strain.loads(&self.rotation, stirred, gradient, (modes, self.strain_modes()));
         HistoryLoads {
             force,
             torque,
@@ -117,6 +146,7 @@ impl History {
             by_spin,
             slip,
             spin_slip,
+            strain: self.strain.as_ref().map(of_strain),
         }
     }
 
@@ -126,6 +156,10 @@ impl History {
         let spins = self.rotation.rates.iter().map(|rate| (rate, &history.spin_slip));
         for (mode, ((rate, slip), out)) in slips.chain(spins).zip(rates.chunks_exact_mut(3)).enumerate() {
             out.copy_from_slice((*rate * modes.behind(slip, 3 * mode)).as_slice());
+        }
+        if let Some(strain) = &history.strain {
+            let from = self.strain_modes();
+            strain.rates(&self.rotation, (modes, from), &mut rates[from..]);
         }
     }
 

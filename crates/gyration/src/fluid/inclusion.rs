@@ -32,7 +32,7 @@ pub struct Inclusion {
     pub center: Vec3,
     /// What the fluid meets.
     pub form: Form,
-    /// The history force on a rigid sphere, if that counts.
+    /// The history force on a sphere, if that counts; of one that deforms with that of its strain.
     pub history: Option<History>,
     /// R of a rigid sphere about its centre of mass that feels others like it through the fluid \[m\].
     pub neighbours: Option<f64>,

@@ -3,6 +3,7 @@
 //! ```text
 //! ambient      the fluid and the flow that it has far from the bodies
 //! history      the history force as loads, and its relaxation modes
+//! straining    the same of its strain and growth
 //! ellipsoid    force and stress of the fluid on an ellipsoid that deforms in a linear flow, and their derivatives
 //! immersed     what the fluid does to a body that deforms, whatever its form
 //! inclusion    a body in the fluid, and the loads on one that deforms as an ellipsoid
@@ -28,6 +29,7 @@ mod inclusion;
 mod lattice;
 mod reference;
 mod spheres;
+mod straining;
 mod stretch;
 mod surface;
 mod table;
@@ -43,6 +45,8 @@ pub use history::{History, HistoryLoads};
 pub use immersed::Immersed;
 pub use inclusion::{Form, ImmersedEllipsoid, Inclusion, MOST_SLENDER, SurfaceForm};
 pub use spheres::{ImmersedSpheres, SphereLoads, SpheresTouch};
+pub(crate) use straining::{STRAIN_NUMBERS, deviator, strain_numbers, strain_of};
+pub use straining::{StrainHistory, StrainLoads};
 pub use surface::ImmersedSurface;
 pub use table::{NoMatrix, ResistanceSource, ResistanceTable, Resolution, UnresolvedForm, largest_error};
 pub use wall::WallLoads;

@@ -78,6 +78,12 @@ impl LoadSlopes {
         column += numbers(slope);
     }
 
+    /// Adds the derivative by the rate of one of them.
+    pub fn add_by_rate(&mut self, coordinate: usize, slope: &Loads) {
+        let mut column = self.by_rate.column_mut(coordinate);
+        column += numbers(slope);
+    }
+
     /// Adds a resistance that takes the velocities at X to the forces −across · Σ κ X̃⊗X̃, given the moments of κ.
     pub fn resist(&mut self, across: &Mat3, zeroth: f64, first: &Vec3, second: &Mat3) {
         if zeroth == 0.0 {

@@ -163,8 +163,8 @@ pub fn immersed(model: Model, inertia: bool) -> Model {
     model.with_bodies(bodies).in_fluid(fluid())
 }
 
-/// Rigid spheres whose motion a fluid remembers, roughly.
-pub fn with_history(model: Model) -> Model {
+/// Spheres whose motion a fluid remembers, roughly; their strain as well, if that is asked for.
+pub fn with_history(model: Model, strains: bool) -> Model {
     let model = immersed(model, true);
     let is_free = |body: &Body| body.pin.is_none() && matches!(body.solid.shape, Shape::Sphere(_));
     let free: Vec<usize> = (0..model.bodies.len()).filter(|body| is_free(&model.bodies[*body])).collect();
@@ -173,10 +173,20 @@ pub fn with_history(model: Model) -> Model {
     for body in &mut bodies {
         let own = Arc::make_mut(body);
         if let (Some(inclusion), Shape::Sphere(sphere)) = (&mut own.inclusion, &own.solid.shape) {
-            inclusion.history = Some(History::of_sphere(sphere.radius, [0.8, 0.6], 0.5, 0.05).unwrap());
+            let history = if strains { History::of_straining_sphere } else { History::of_sphere };
+            inclusion.history = Some(history(sphere.radius, [0.8, 0.6], 0.5, 0.05).unwrap());
         }
     }
     model.with_bodies(bodies)
+}
+
+/// Gives the relaxation modes of all histories some numbers.
+pub fn shake_modes(model: &Model, state: &mut State) {
+    for body in 0..model.bodies.len() {
+        for (place, number) in state.bodies[model.slots(body).extra()].iter_mut().enumerate() {
+            *number = (1.7 * (place + body) as f64).sin();
+        }
+    }
 }
 
 /// The same bodies under a controller that applies force, affine moment and torque to each.

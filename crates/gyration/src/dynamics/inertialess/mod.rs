@@ -94,7 +94,7 @@ struct Member {
 
 impl Scratch {
     /// A matrix of zeros of so many rows.
-    fn take(&mut self, size: usize) -> DMatrix<f64> {
+    pub(super) fn take(&mut self, size: usize) -> DMatrix<f64> {
         match self.matrices.iter().position(|matrix| matrix.nrows() == size) {
             Some(place) => {
                 let mut matrix = self.matrices.swap_remove(place);

@@ -26,12 +26,24 @@ pub(super) fn fill(
     scratch: &mut Scratch,
 ) -> Result<(), Inadmissible> {
     let loads = load_slopes(at, scratch)?;
-    let moment = moment(at, &loads.as_ref().map(|slopes| slopes.loads).unwrap_or_default());
+    fill_with(block, at, affine, gyration, loads.as_ref());
+    Ok(())
+}
+
+/// The same under loads whose derivatives are known, if there are any.
+pub(super) fn fill_with(
+    block: &mut DMatrix<f64>,
+    at: &BodyAt,
+    affine: &Affine,
+    gyration: &Gyration,
+    loads: Option<&LoadSlopes>,
+) {
+    let moment = moment(at, &loads.map(|slopes| slopes.loads).unwrap_or_default());
     let half = block.nrows() / 2;
     for (coordinate, column) in block.as_mut_slice().chunks_exact_mut(2 * half).skip(half).enumerate() {
         column[coordinate] = 1.0;
     }
-    let loads = loads.as_ref().map(|slopes| Seen::of(at, slopes));
+    let loads = loads.map(|slopes| Seen::of(at, slopes));
     if let Some(seen) = &loads {
         for (coordinate, column) in block.as_mut_slice().chunks_exact_mut(2 * half).enumerate() {
             seen.linear(coordinate >= half, coordinate % half, &mut column[half..2 * half - 9]);
@@ -39,7 +51,6 @@ pub(super) fn fill(
     }
     let block = block.as_mut_slice();
     dispatch_f64x4(Acceleration { affine, gyration, moment: &moment, loads: loads.as_ref(), half, block });
-    Ok(())
 }
 
 /// δP̈ along each coordinate and each of its rates, to be written into the block.

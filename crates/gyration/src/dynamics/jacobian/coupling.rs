@@ -12,6 +12,7 @@
 //! the pin to the acceleration of P or Ω that the balance of the kind gives. With i = j it serves every load on a rigid
 //! body that has no other way. Bodies without inertia take their velocities from it (`inertialess`), not their rates.
 
+use super::super::affine_history::AffineHistory;
 use super::super::contractile::ContractileMotion;
 use super::super::guided::Guided;
 use super::super::history::RigidHistory;
@@ -221,7 +222,10 @@ impl Lower {
             KindAt::Rigid(inertia, turn) => {
                 std::array::from_fn(|k| turned(at, inertia, turn, &loads(&Vec12::ith(k, 1.0))))
             }
-            KindAt::Affine(affine, gyration) => dispatch_f64x4(Deforming { at, affine, gyration }),
+            KindAt::Affine(affine, gyration) => match AffineHistory::of(at, affine, gyration) {
+                Some(sphere) => std::array::from_fn(|k| remembered(&sphere, &loads(&Vec12::ith(k, 1.0)))),
+                None => dispatch_f64x4(Deforming { at, affine, gyration }),
+            },
             KindAt::Contractile(contractile, gyration, decomposition) => {
                 dispatch_f64x4(ContractileMotion { at, contractile, gyration, decomposition })
             }
@@ -247,6 +251,11 @@ fn turned(at: &MotionAt, inertia: &RigidInertia, turn: &Turn, change: &Loads) ->
     let about = Loads { force: change.force, moment: about_pin(at, change) };
     let angular = inverse * about.body_torque(&at.motion.placement.gradient);
     stacked(at, &(change.force / mass), angular.as_slice())
+}
+
+/// (δp̈₀, δP̈) of an affine sphere that the fluid remembers.
+fn remembered(sphere: &AffineHistory, change: &Loads) -> Vec12 {
+    packed(&(change.force / sphere.mass()), &sphere.inertia.along_moment(&change.moment))
 }
 
 /// The accelerations of a slot after those of the centre, which a pinned body does not have.

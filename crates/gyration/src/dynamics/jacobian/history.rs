@@ -7,6 +7,7 @@
 use super::super::history::RigidHistory;
 use super::rigid::{RigidSlopes, gyroscopic, write};
 use crate::body::{RigidInertia, Slots};
+use crate::fluid::STRAIN_NUMBERS;
 use crate::tensor::{Mat3, cross_matrix};
 use nalgebra::DMatrix;
 use std::ops::Range;
@@ -48,5 +49,11 @@ pub(super) fn fill(block: &mut DMatrix<f64>, inertia: &RigidInertia, sphere: &Ri
             write(block, place(&own, &attitude), &(-decay * rotation * cross_matrix(&turn.spin) * turns));
             write(block, place(&own, &rate), &(decay * rotation));
         }
+    }
+    // Those of the strain trail the flow alone, and nothing of the body feels them.
+    let strains = sphere.history.strain.iter().flat_map(|strain| strain.modes(&sphere.history.rotation));
+    for (mode, (_, decay)) in strains.enumerate() {
+        let at = slots.extra().start + sphere.history.strain_modes() + STRAIN_NUMBERS * mode;
+        (at..at + STRAIN_NUMBERS).for_each(|own| block[(own, own)] = -decay);
     }
 }

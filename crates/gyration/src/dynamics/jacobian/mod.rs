@@ -5,11 +5,12 @@
 //!
 //!   block (i, j) = B_i ∂Q_i/∂(q_j, q̇_j) A_j        (`coupling`)
 //!
-//! and beside it what its own balance changes by at fixed loads (`rigid`, `affine`, `contractile`, `history`). The
-//! wrench of a contact or of the fluid on a rigid body depends on few numbers only; its derivatives by them are exact
-//! to more digits than those by q, and go to the block directly.
+//! and beside it what its own balance changes by at fixed loads (`rigid`, `affine`, `contractile`, `history`,
+//! `affine_history`). The wrench of a contact or of the fluid on a rigid body depends on few numbers only; its
+//! derivatives by them are exact to more digits than those by q, and go to the block directly.
 
 mod affine;
+mod affine_history;
 mod contractile;
 mod coupling;
 mod history;
@@ -20,6 +21,7 @@ pub use coupling::{Coupling, Lift, Lower};
 pub(super) use interactions::add_interactions;
 
 use super::Scratch;
+use super::affine_history::AffineHistory;
 use super::contractile::ContractileMotion;
 use super::history::RigidHistory;
 use super::reaction::hold_block;
@@ -72,7 +74,10 @@ fn free_jacobian(at: &BodyAt, scratch: &mut Scratch, matrix: &mut DMatrix<f64>) 
             }
             Ok(())
         }
-        KindAt::Affine(affine, gyration) => affine::fill(matrix, at, affine, gyration, scratch),
+        KindAt::Affine(affine, gyration) => match AffineHistory::of(at, affine, gyration) {
+            Some(sphere) => affine_history::fill(matrix, at, (affine, gyration), &sphere, scratch),
+            None => affine::fill(matrix, at, affine, gyration, scratch),
+        },
         KindAt::Contractile(contractile, gyration, decomposition) => {
             contractile::fill(matrix, at, &ContractileMotion { at, contractile, gyration, decomposition }, scratch)
         }
