@@ -24,7 +24,7 @@ use crate::ports::{Communicator, Monitor, Progress, RunError, Sink, WindowEnd};
 use crate::rows::Fields;
 use crate::run::Simulation;
 use crate::summary::RunSummary;
-use crate::survey::remarks::{LeftOut, Remarks};
+use crate::survey::remarks::{LeftOut, Remarks, Stretched};
 use gyration::body::{BodyKind, Solid};
 use gyration::dynamics::Exchange;
 use gyration::model::Model;
@@ -230,6 +230,11 @@ impl<'a> Job<'a> {
                 sink.writer.flush(&checkpoint)?;
                 let left_out = LeftOut::in_rows(self.model, &Recording::open(path)?)?;
                 summary.warnings.extend(left_out.warnings(self.model));
+            }
+            if Stretched::may_be(self.model) {
+                sink.writer.flush(&checkpoint)?;
+                let stretched = Stretched::in_rows(self.model, &Recording::open(path)?)?;
+                summary.warnings.extend(stretched.warning(self.model));
             }
             sink.writer.finish(summary.attributes(), &checkpoint)?;
         } else if simulation.is_whole() {

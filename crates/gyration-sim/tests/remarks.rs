@@ -222,6 +222,29 @@ fn bodies_beside_the_middle_of_a_large_face_are_told_what_pushes_them() {
     }
 }
 
+/// The memory of a sphere that deforms is that of small strains: of a larger one the start and the rows tell.
+#[test]
+fn a_sphere_that_is_stretched_too_far_for_the_memory_of_the_fluid_is_told() {
+    let ball = |stretch: f64, rate: f64| {
+        format!(
+            "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 0.02, sample = 1e-3 }}\n\
+             fluid = {{ viscosity = 1, density = 1000 }}\n[[body]]\nname = \"ball\"\ndensity = 1000\n\
+             shape = {{ sphere = {{ radius = 0.01 }} }}\ninclusion = {{ history = true, history_error = 1e-3 }}\n\
+             affine = {{ material = {{ neo_hookean = {{ shear = 20 }} }} }}\n\
+             gradient = [[{stretch:?}, 0, 0], [0, {:?}, 0], [0, 0, 1]]\n\
+             gradient_rate = [[0, {rate:?}, 0], [{rate:?}, 0, 0], [0, 0, 0]]\n",
+            1.0 / stretch
+        )
+    };
+    let [told] = &remarks(&ball(1.25, 0.0)).warnings[..] else { panic!("one warning") };
+    assert!(told.contains("remembers \"ball\" as a sphere"), "{told}");
+    assert!(told.contains("at the start") && told.contains("about 22 %"), "{told}");
+    assert!(remarks(&ball(1.05, 0.0)).warnings.is_empty() && remarks(&ball(1.0, 60.0)).warnings.is_empty());
+    let [told] = &recorded(&ball(1.0, 60.0))[..] else { panic!("one warning") };
+    assert!(told.contains("remembers \"ball\" as a sphere") && told.contains("at t = "), "{told}");
+    assert!(recorded(&ball(1.05, 0.0)).is_empty());
+}
+
 /// Of two equal spheres and of one above a plane the exact ratios are known: 1.54 (Stimson, Jeffery), 134 (Brenner).
 #[test]
 fn what_the_fluid_between_bodies_would_do_is_told_with_its_size() {

@@ -6,6 +6,7 @@
 //! 1/(1 − 9R/8h) of the drag at a height h above a plane.
 
 use super::neighbor::{pair_speed_ratio, plane_drag_ratio};
+use super::rows::each_row;
 use crate::format::significant;
 use gyration::body::BodyKind;
 use gyration::model::Model;
@@ -22,10 +23,6 @@ const LEAST_HEIGHT: f64 = 1.2;
 
 /// Pairs of neighbours at a time that are looked at.
 const MOST_COMPARED: usize = 1_000_000;
-/// Rows that are looked at.
-const MOST_ROWS: usize = 10_000;
-/// Places of bodies that are read at once.
-const MOST_NUMBERS: usize = 300_000;
 
 /// A neighbour in the fluid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,20 +66,10 @@ impl LeftOut {
     /// Those of reading.
     pub(crate) fn in_rows(model: &Model, recording: &Recording) -> Result<Self, RecordError> {
         let mut left_out = Self::default();
-        let rows = recording.rows();
-        let chunk = (MOST_NUMBERS / model.bodies.len().max(1)).max(1);
-        let stride = rows.div_ceil(MOST_ROWS).max(1);
-        for first in (0..rows).step_by(chunk) {
-            let range = first..(first + chunk).min(rows);
-            let times = recording.read_rows("time", range.clone())?.data;
-            let places = recording.read_rows("position", range)?.data;
-            for (row, (time, row_places)) in times.iter().zip(places.chunks_exact(3 * model.bodies.len())).enumerate() {
-                if (first + row) % stride == 0 || first + row + 1 == rows {
-                    let positions: Vec<Vec3> = row_places.chunks_exact(3).map(Vec3::from_column_slice).collect();
-                    left_out.note(model, *time, &positions);
-                }
-            }
-        }
+        each_row(recording, ("position", 3 * model.bodies.len()), |time, places| {
+            let positions: Vec<Vec3> = places.chunks_exact(3).map(Vec3::from_column_slice).collect();
+            left_out.note(model, time, &positions);
+        })?;
         Ok(left_out)
     }
 

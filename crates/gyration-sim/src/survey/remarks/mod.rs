@@ -13,13 +13,16 @@ mod meshes;
 mod neighbor;
 mod plates;
 mod reaches;
+mod rows;
 mod stored;
 mod strangers;
+mod stretched;
 mod trial;
 mod turning;
 mod untouched;
 
 pub(crate) use fluid::LeftOut;
+pub(crate) use stretched::Stretched;
 
 use gyration::model::Model;
 use gyration::state::State;
@@ -41,10 +44,11 @@ impl Remarks {
     pub fn at_start(model: &Model, start: &State, rtol: f64) -> Self {
         let mut remarks = Self::without_fluid(model, start, rtol);
         remarks.warnings.extend(LeftOut::at(model, start).warnings(model));
+        remarks.warnings.extend(Stretched::at(model, start).warning(model));
         remarks
     }
 
-    /// The same without what the fluid between bodies would do.
+    /// The same without what the fluid between bodies would do, and how far bodies are stretched in it.
     pub(crate) fn without_fluid(model: &Model, start: &State, rtol: f64) -> Self {
         let mut remarks = Self::default();
         strangers::remark(model, start, &mut remarks);
