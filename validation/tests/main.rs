@@ -46,6 +46,7 @@ mod case_soft_audits;
 mod case_soft_tumbling_box;
 mod case_solid_supports;
 mod case_spectrum;
+mod case_strain_memory;
 mod case_strong_lattices;
 mod case_taut_pairs;
 mod case_topology;
