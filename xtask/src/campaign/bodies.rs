@@ -107,7 +107,8 @@ struct Immersion {
 impl Immersion {
     fn of(draft: &mut Draft, of: ShapeKind, kind: Kind, density: f64) -> Self {
         let is_ellipsoid = matches!(of, ShapeKind::Sphere | ShapeKind::Ellipsoid);
-        let history = of == ShapeKind::Sphere && kind == Kind::Rigid && density > 0.0 && draft.stream.chance(0.5);
+        let remembered = of == ShapeKind::Sphere && kind != Kind::Contractile;
+        let history = remembered && density > 0.0 && draft.stream.chance(0.5);
         let has_inertia = history || draft.meets || draft.stream.chance(0.6);
         let mut text = format!("inertia = {has_inertia}, history = {history}");
         if !is_ellipsoid {
