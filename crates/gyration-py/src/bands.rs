@@ -20,10 +20,10 @@ use serde_json::json;
 ///
 /// Along ``path``, ``points`` wave vectors a segment, with rows r, branches b and roots: ``kappa``, ``k`` [1/m] (r, 3);
 /// ``omega`` [rad/s], ``decay`` [1/s] (r, b); ``lambda`` complex (r, roots); ``velocity`` [m/s] (r, b, 3), nan where ω
-/// has no derivative; ``participation`` (r, b, 5); ``rest`` with ``force``, ``stress``, ``cell`` and ``bodies``;
-/// ``sound``, ``labels``, ``begins``, ``warnings``. ``mesh`` adds ``gaps`` and ``dos``; ``shapes`` adds ``shapes``, by
-/// body complex ``translation`` (r, b, 3) and ``gradient`` (r, b, 3, 3). ``strain``, ``"xx=-0.05"``, deforms the cell
-/// first.
+/// has no derivative; ``participation`` (r, b, 5); of a ribbon ``edges``, a list with ``direction``, ``cells`` and
+/// ``shares`` (r, b, 2); ``rest`` with ``force``, ``stress``, ``cell`` and ``bodies``; ``sound``, ``labels``,
+/// ``begins``, ``warnings``. ``mesh`` adds ``gaps`` and ``dos``; ``shapes`` adds ``shapes``, by body complex
+/// ``translation`` (r, b, 3) and ``gradient`` (r, b, 3, 3). ``strain``, ``"xx=-0.05"``, deforms the cell first.
 ///
 /// ``derivatives``, keys of numbers of the scene as to ``sensitivities``, adds ``derivatives``, a dictionary of ∂ω (r,
 /// b) by key, nan where ω has no derivative. ``bound`` adds ``bound`` [rad/s] (r, b), by how much ω may be off, nan
@@ -138,6 +138,15 @@ fn along_path<'py>(py: Python<'py>, found: &BandSurvey) -> PyResult<Bound<'py, P
     told.set_item("velocity", array(py, velocity, &[rows, branches, 3])?)?;
     let shares = found.participation.concat().concat();
     told.set_item("participation", array(py, shares, &[rows, branches, PARTS])?)?;
+    let edges = PyList::empty(py);
+    for along in &found.edges {
+        let one = PyDict::new(py);
+        one.set_item("direction", along.direction)?;
+        one.set_item("cells", along.cells)?;
+        one.set_item("shares", array(py, along.shares.concat().concat(), &[rows, branches, 2])?)?;
+        edges.append(one)?;
+    }
+    told.set_item("edges", edges)?;
     if let Some(shapes) = &found.shapes {
         told.set_item("shapes", shapes_of_bodies(py, shapes, [rows, branches])?)?;
     }

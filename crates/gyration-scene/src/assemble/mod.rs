@@ -135,6 +135,8 @@ pub struct UnitCell {
     pub model: Model,
     /// How it starts.
     pub state: State,
+    /// How many of the cells that are written it holds along each direction: one along what is periodic.
+    pub repeat: [u32; 3],
     /// Which directions are periodic.
     pub periodic: Vec<bool>,
     /// Whether its bodies seek their rest before bands are computed.
@@ -295,7 +297,8 @@ pub(crate) fn assemble(
     let cells = cells.map(|cells| cells.ok_or(())).transpose().ok()?;
     let mut unit = |unit: &Cells| {
         let (model, state) = parts.clone().repeated(unit, &rule_keys, reporter).built()?;
-        Some(UnitCell { model, state, periodic: unit.periodic(), relaxes: unit.relaxes, load: unit.load })
+        let (repeat, periodic) = (unit.repeat(), unit.periodic());
+        Some(UnitCell { model, state, repeat, periodic, relaxes: unit.relaxes, load: unit.load })
     };
     let cell = cells.as_ref().map(|cells| unit(&cells.unit()).ok_or(())).transpose().ok()?;
     let waves = match (&cells, waves) {

@@ -5,7 +5,7 @@ use super::modes::{Named, RestPlace, left_out};
 use super::varied_bands::{BandNumber, VariedBands};
 use crate::modes::PARTS;
 use crate::modes::bands::{
-    BandPath, BandRow, BandShape, LatticeWaves, MOST_POINTS, NoBands, RowRequest, Sound, StrainPath, Zone,
+    BandPath, BandRow, BandShape, FreeEdges, LatticeWaves, MOST_POINTS, NoBands, RowRequest, Sound, StrainPath, Zone,
 };
 use crate::waves::PassingWaves;
 use gyration::tensor::{Mat3, Vec3};
@@ -32,6 +32,9 @@ pub struct BandSurvey {
     pub velocity: Vec<Vec<Option<[f64; 3]>>>,
     /// Shares of translation, rotation, shear, stretch and breathing in the kinetic energy of each branch.
     pub participation: Vec<Vec<[f64; PARTS]>>,
+    /// Shares of the kinetic energy at the edges of a ribbon; none where nothing ends.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub edges: Vec<EdgeShares>,
     /// The shape of each branch, of each body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shapes: Option<Vec<Vec<Named<BandShape>>>>,
@@ -57,6 +60,17 @@ pub struct BandSurvey {
     pub zone: Option<Zone>,
     /// What must be told besides.
     pub warnings: Vec<String>,
+}
+
+/// How much of each branch runs at the two edges of a direction along which the cells end.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EdgeShares {
+    /// The direction, from 1.
+    pub direction: usize,
+    /// How many cells deep each edge is.
+    pub cells: u32,
+    /// Shares of the kinetic energy of each branch in each row: where the cells begin, where they end.
+    pub shares: Vec<Vec<[f64; 2]>>,
 }
 
 /// ∂ω by numbers of a scene [rad/s per unit of each].
@@ -131,7 +145,8 @@ impl BandSurvey {
         let mut found = VariedBands::of(scene, strain, &options.derivatives)?;
         let doubt = if options.bound { Some(found.doubt(scene, strain)?) } else { None };
         let (waves, varied) = (&found.waves, &found.varied);
-        let request = RowRequest { shapes: options.shapes, varied, doubt: doubt.as_ref() };
+        let edges = FreeEdges::of(&cell.repeat, &cell.periodic, cell.model.bodies.len());
+        let request = RowRequest { shapes: options.shapes, varied, doubt: doubt.as_ref(), edges: &edges };
         let rows = path.points.iter().map(|point| waves.row_of(point, request));
         let rows: Vec<BandRow> = rows.collect::<Result<_, _>>().map_err(told)?;
         let zone = options.mesh.map(|mesh| waves.zone(mesh, &cell.periodic)).transpose().map_err(told)?;
@@ -158,6 +173,7 @@ impl BandSurvey {
                 .map(|row| row.branches.iter().map(|it| it.velocity.map(Into::into)).collect())
                 .collect(),
             participation: rows.iter().map(|row| row.branches.iter().map(|it| it.participation).collect()).collect(),
+            edges: edges.iter().enumerate().map(|(index, edges)| edge_shares(&rows, index, edges)).collect(),
             shapes,
             derivatives: derivatives(&rows, &found.numbers),
             bound: doubt.map(|_| rows.iter().map(|row| row.branches.iter().map(|it| it.bound).collect()).collect()),
@@ -170,6 +186,12 @@ impl BandSurvey {
             zone,
         })
     }
+}
+
+/// The shares at the edges of a direction, which are those of this index.
+fn edge_shares(rows: &[BandRow], index: usize, edges: &FreeEdges) -> EdgeShares {
+    let of_row = |row: &BandRow| row.branches.iter().map(|branch| branch.at_edges[index]).collect();
+    EdgeShares { direction: edges.direction + 1, cells: edges.cells, shares: rows.iter().map(of_row).collect() }
 }
 
 /// ∂ω by each number; none without numbers.
@@ -202,8 +224,7 @@ fn unsure(numbers: &[BandNumber]) -> Vec<String> {
 pub fn passing_waves(scene: &Scene) -> Result<PassingWaves, String> {
     let cell = unit_cell(scene)?;
     let waves = waves_of(cell, None).map_err(|error| error.to_string())?;
-    let written = scene.file().lattice.as_ref().map_or([1; 3], |lattice| lattice.repeat.map(|it| it.0 as u32));
-    Ok(PassingWaves::new(cell.clone(), written, waves))
+    Ok(PassingWaves::new(cell.clone(), waves))
 }
 
 /// Where a cell is looked at.

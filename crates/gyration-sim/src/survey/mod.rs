@@ -36,7 +36,7 @@ mod topology;
 mod varied_bands;
 mod words;
 
-pub use bands::{BandDerivatives, BandOptions, BandSurvey, CellRestSurvey, passing_waves};
+pub use bands::{BandDerivatives, BandOptions, BandSurvey, CellRestSurvey, EdgeShares, passing_waves};
 pub use bodies::{BodyModes, BodySurvey, PairSurvey, SceneModes, Survey, SystemModes, modes, modes_in_json};
 pub use cell::unit_cell;
 pub use complex_bands::{ComplexBandOptions, ComplexBandSurvey};

@@ -39,17 +39,16 @@ pub struct Passing {
 }
 
 impl PassingWaves {
-    /// The waves of a cell, about the state of which its bands are; along what is not periodic it has so many cells as
-    /// are written.
-    pub fn new(cell: UnitCell, written: [u32; 3], waves: LatticeWaves) -> Self {
+    /// The waves of a cell, about the state of which its bands are; along what is not periodic the block has the cells
+    /// that are written.
+    pub fn new(cell: UnitCell, waves: LatticeWaves) -> Self {
         let periodic: [bool; 3] = std::array::from_fn(|a| cell.periodic.get(a).copied().unwrap_or(false));
         let along = CELLS[periodic.iter().filter(|it| **it).count().clamp(1, CELLS.len()) - 1];
-        let of_unit = |a: usize| if periodic[a] { 1 } else { written[a] };
-        let of_block = |a: usize| if periodic[a] { along } else { written[a] };
+        let (unit, of_block) = (cell.repeat, |a: usize| if periodic[a] { along } else { cell.repeat[a] });
         // What is drawn may move by a part of the nearest length there is.
         let lengths = waves.rest().cell.iter().zip(&cell.periodic).filter(|it| *it.1).map(|it| it.0.norm());
         let scale = lengths.chain(cell.model.bodies.iter().map(|body| body.size)).fold(f64::INFINITY, f64::min);
-        let (unit, repeat) = (std::array::from_fn(of_unit), std::array::from_fn(of_block));
+        let repeat = std::array::from_fn(of_block);
         let block = WaveStart { cell, unit, repeat, ring: [false; 3], waves: Vec::new() };
         Self { waves, block, scale }
     }

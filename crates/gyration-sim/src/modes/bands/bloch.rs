@@ -140,15 +140,22 @@ impl BlochSystem {
     /// The shares of a motion: translation, rotation, shear, stretch, breathing.
     pub fn participation(&self, shape: &DVector<C64>) -> [f64; PARTS] {
         let mut shares = [0.0; PARTS];
-        for (range, forms) in &self.parts {
-            let own = shape.rows(range.start, range.len());
-            let (real, imaginary) = (own.map(|value| value.re), own.map(|value| value.im));
-            let form = |matrix: &DMatrix<f64>| (matrix * &real).dot(&real) + (matrix * &imaginary).dot(&imaginary);
-            shares.iter_mut().zip(forms).for_each(|(share, matrix)| *share += form(matrix));
+        for energies in self.energies(shape) {
+            shares.iter_mut().zip(energies).for_each(|(share, energy)| *share += energy);
         }
         let total: f64 = shares.iter().sum();
         // Terms of two parts, halved for each, may leave a share below zero; rounding is none.
         shares.map(|share| if total > 0.0 && share.abs() > NO_SHARE * total { share / total } else { 0.0 })
+    }
+
+    /// Twice the kinetic energy of each part of a motion, body by body.
+    pub fn energies(&self, shape: &DVector<C64>) -> impl Iterator<Item = [f64; PARTS]> {
+        self.parts.iter().map(|(range, forms)| {
+            let own = shape.rows(range.start, range.len());
+            let (real, imaginary) = (own.map(|value| value.re), own.map(|value| value.im));
+            let form = |matrix: &DMatrix<f64>| (matrix * &real).dot(&real) + (matrix * &imaginary).dot(&imaginary);
+            forms.each_ref().map(form)
+        })
     }
 }
 

@@ -4,8 +4,9 @@
 //!
 //! `path` reads wave vectors, `bloch` has the matrices of the small motions of one cell and of those at a wave vector,
 //! `waves` their roots, shapes and group velocities, `evanescent` all wave vectors of a frequency, `sound` the speeds
-//! of long waves, `stability` the wave that grows first, `strained` deforms the cell. The cell is linearized about its
-//! rest, or about the state as it is written. `continuum` expands the matrices about k = 0.
+//! of long waves, `stability` the wave that grows first, `edges` how much of a wave runs at a free end, `strained`
+//! deforms the cell. The cell is linearized about its rest, or about the state as it is written. `continuum` expands
+//! the matrices about k = 0.
 
 mod bloch;
 mod bound;
@@ -13,6 +14,7 @@ mod by_cell;
 mod cell_rest;
 mod continuum;
 mod doubt;
+mod edges;
 mod eigenspaces;
 mod evanescent;
 mod first_order;
@@ -32,6 +34,7 @@ mod waves;
 
 pub use continuum::{Continuum, ContinuumModel, NoContinuum, Reach, Tensor, frequency_error};
 pub use doubt::MatrixDoubt;
+pub use edges::FreeEdges;
 pub use mesh::{BandGap, StateDensity, Zone};
 pub use normal::NoNormalModes;
 pub(crate) use normal::NormalModes;
@@ -138,6 +141,8 @@ pub struct Branch {
     pub velocity: Option<Vec3>,
     /// Shares of the kinetic energy: translation, rotation, shear, stretch, breathing.
     pub participation: [f64; PARTS],
+    /// Shares of the kinetic energy at the edges that were asked for: where the cells begin, where they end.
+    pub at_edges: Vec<[f64; 2]>,
     /// How each body moves; none where that was not asked for.
     pub shapes: Vec<BandShape>,
     /// ∂ω by each number that was asked for [rad/s per unit of it], ascending among branches of one frequency; none
@@ -156,6 +161,8 @@ pub struct RowRequest<'a> {
     pub varied: &'a [VariedCell],
     /// How far the matrices may be off, if bounds are wanted.
     pub doubt: Option<&'a MatrixDoubt>,
+    /// Edges at which shares are wanted.
+    pub edges: &'a [FreeEdges],
 }
 
 /// How a body moves in a wave: δp₀ and δP [1/m] in real and imaginary parts, so scaled that Σ |ξ|² = 1 along
@@ -310,11 +317,14 @@ impl LatticeWaves {
             decay: 0.0 - wave.root.re,
             velocity: wave.velocity,
             participation: self.system.participation(&wave.shape),
+            at_edges: request.edges.iter().map(|edges| edges.shares(&self.system, &wave.shape)).collect(),
             shapes: if request.shapes { self.shapes(&wave.shape) } else { Vec::new() },
             changes: wave.changes.clone(),
             bound: wave.bound,
         });
-        Ok(BandRow { kappa, k: self.wave_vector(&kappa), branches: branches.collect(), roots })
+        let mut branches: Vec<Branch> = branches.collect();
+        edges::share_alike(&mut branches);
+        Ok(BandRow { kappa, k: self.wave_vector(&kappa), branches, roots })
     }
 }
 
