@@ -1,7 +1,7 @@
 //! Waves of a lattice for the page: its bands, and a wave as rows of one period.
 //!
 //! ```text
-//! bands   JSON: kappa, k, omega, decay, participation, labels, vertices, begins, warnings
+//! bands   JSON: kappa, k, omega, decay, participation, edges, labels, vertices, begins, warnings
 //! wave    binary message, head { rows, omega, decay, cell, repeat, bodies: [{ name, like }] },
 //!         payload: times f64[rows], positions f32[rows·3·bodies], P f32[rows·9·bodies]
 //! ```
@@ -49,10 +49,10 @@ impl Waves {
     pub fn bands(&self, path: Option<&str>) -> Result<Value, String> {
         let options = BandOptions { points: POINTS, ..BandOptions::default() };
         let found = within(&self.scene, || BandSurvey::of(&self.scene, path, options))?;
-        let BandSurvey { kappa, k, omega, decay, participation, labels, vertices, begins, warnings, .. } = found;
+        let BandSurvey { kappa, k, omega, decay, participation, edges, labels, vertices, begins, warnings, .. } = found;
         Ok(json!({
             "kappa": kappa, "k": k, "omega": omega, "decay": decay, "participation": participation,
-            "labels": labels, "vertices": vertices, "begins": begins, "warnings": warnings,
+            "edges": edges, "labels": labels, "vertices": vertices, "begins": begins, "warnings": warnings,
         }))
     }
 

@@ -108,3 +108,53 @@ fn a_recording_has_the_waves_of_its_scene_and_one_without_lattice_none() {
     let (status, told) = shown("fall", FALL).get("/api/bands");
     assert!(status == 422 && String::from_utf8_lossy(&told).contains("[lattice]"), "{status}");
 }
+
+/// Four balls of 1 kg in a row with free ends, on springs of 100 N/m; rows stand side by side without end.
+const RIBBON: &str = r#"
+world = { gravity = [0, 0, 0] }
+time = { end = 0.01, sample = 0.01 }
+lattice = { cell = [[1, 0, 0], [0, 1, 0]], repeat = [2, 4, 1], periodic = [true, false] }
+[[body]]
+name = "ball"
+shape = { sphere = { radius = 0.1 } }
+mass = 1
+[[spring]]
+between = ["ball", "ball"]
+cell = [0, 1, 0]
+stiffness = 100
+rest_length = 1
+"#;
+
+#[test]
+fn a_ribbon_tells_how_much_of_its_waves_is_at_its_edges_and_is_drawn_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = record(folder.path(), "ribbon", RIBBON);
+    let served = Served::new(PageSource::Recording(Box::new(Stored::open(&path).unwrap())));
+    let bands = served.json("/api/bands");
+    let edges = &bands["edges"][0];
+    assert_eq!((&edges["direction"], &edges["cells"]), (&2.into(), &1.into()));
+    for mode in 1..4 {
+        // u_i = cos(πj(i + ½)/4), ω = 2√(k/m) sin(πj/8): Σu² is 2.
+        let angle = std::f64::consts::PI * f64::from(mode) / 8.0;
+        let branch = 20 + mode as usize;
+        assert!((bands["omega"][0][branch].as_f64().unwrap() / (20.0 * angle.sin()) - 1.0).abs() < 1e-9);
+        for side in 0..2 {
+            let share = edges["shares"][0][branch][side].as_f64().unwrap();
+            assert!((share - 0.5 * angle.cos().powi(2)).abs() < 1e-9, "mode {mode}: {share}");
+        }
+    }
+    // Eight cells along the ribbon, all four across it.
+    let (head, positions, _) = wave(&served, 23);
+    assert_eq!((&head["repeat"], head["bodies"].as_array().unwrap().len()), (&serde_json::json!([8, 4, 1]), 32));
+    let places = |cell: usize| &positions[3 * cell..3 * cell + 3];
+    assert!((0..8).all(|x| (places(x)[0] - x as f32).abs() < 1e-6 && (places(24 + x)[0] - x as f32).abs() < 1e-6));
+    // In the third mode both ends move against one another.
+    let [low, high] = [places(0)[1], places(24)[1] - 3.0];
+    assert!((low + high).abs() < 1e-5 && low.abs() > 1e-3, "{low} {high}");
+    assert!(served_bars(&folder).json("/api/bands")["edges"].as_array().unwrap().is_empty());
+}
+
+fn served_bars(folder: &tempfile::TempDir) -> Served {
+    let path = record(folder.path(), "bars", BARS);
+    Served::new(PageSource::Recording(Box::new(Stored::open(&path).unwrap())))
+}

@@ -12,6 +12,8 @@ export interface Bands {
   decay: number[][];
   /** Shares of `PARTS` in the kinetic energy of each branch. */
   participation: number[][][];
+  /** Of a ribbon, by the direction along which it ends. */
+  edges: Edges[];
   /** Rows with a name, rows with a vertex, rows at which the path begins anew. */
   labels: [number, string][];
   vertices: number[];
@@ -19,8 +21,49 @@ export interface Bands {
   warnings: string[];
 }
 
+/** How much of each wave runs at the two edges of a direction. */
+export interface Edges {
+  /** From 1. */
+  direction: number;
+  /** How many cells deep each is. */
+  cells: number;
+  /** Shares in the kinetic energy of each branch: where the cells begin, where they end. */
+  shares: [number, number][][];
+}
+
 /** What may move, in the order of the shares. */
 export const PARTS = ["translation", "rotation", "shear", "stretch", "breathing"];
+/** Where a wave of a ribbon may run. */
+export const PLACES = ["low edge", "high edge", "both edges", "inside"];
+/** A wave whose share at one edge is more than this part of that at the other runs at both. */
+const AT_BOTH = 0.5;
+
+/** What has which share in the energy of a wave: kinds of motion, or places. */
+export interface Sharing {
+  title: string;
+  names: string[];
+  of(row: number, branch: number): number[];
+}
+
+/** The ways in which the energy of waves can be shared out: by what moves, and by where that is. */
+export function sharingsOf({ participation, edges }: Bands): Sharing[] {
+  const byPart = {
+    title: "what moves most",
+    names: PARTS,
+    of: (row: number, branch: number) => participation[row][branch],
+  };
+  const byPlace = edges.map(({ direction, shares }) => ({
+    title: `the edges along vector ${direction}`,
+    names: PLACES,
+    of: (row: number, branch: number) => {
+      const [low, high] = shares[row][branch];
+      const inside = 1 - low - high;
+      const isAtBoth = Math.min(low, high) > Math.max(inside, AT_BOTH * Math.max(low, high));
+      return isAtBoth ? [0, 0, low + high, inside] : [low, high, 0, inside];
+    },
+  }));
+  return [byPart, ...byPlace];
+}
 
 /** How far along the path each row is [1/m]; where it begins anew it goes on from where it ended. */
 export function placesOf({ k, begins }: Bands): number[] {
@@ -37,9 +80,9 @@ export function heightOf({ omega, decay }: Bands, row: number, branch: number): 
   return omega[row][branch] === 0 ? Math.min(0, decay[row][branch]) : omega[row][branch];
 }
 
-/** Which of `PARTS` has most of the kinetic energy. */
-export function partOf({ participation }: Bands, row: number, branch: number): number {
-  const shares = participation[row][branch];
+/** Which has most of the energy of a wave. */
+export function mostOf(sharing: Sharing, row: number, branch: number): number {
+  const shares = sharing.of(row, branch);
   return shares.reduce((most, share, part) => (share > shares[most] + 1e-9 ? part : most), 0);
 }
 
@@ -61,21 +104,21 @@ function nameOf({ labels, kappa }: Bands, row: number): string {
   return kappa[row].map((part) => String(Math.round(1e3 * part) / 1e3 + 0)).join(", ");
 }
 
-/** A piece of a branch in which one of `PARTS` moves most. */
+/** A piece of a branch in which one part has most of the energy. */
 export interface Piece {
   part: number;
   points: [number, number][];
 }
 
-/** The branches, cut where the path begins anew and where something else moves most. */
-export function piecesOf(bands: Bands, places: number[]): Piece[] {
+/** The branches, cut where the path begins anew and where another part has most. */
+export function piecesOf(bands: Bands, places: number[], sharing: Sharing): Piece[] {
   const anew = new Set([0, ...bands.begins]);
   const pieces: Piece[] = [];
   bands.omega[0]?.forEach((_, branch) => {
     places.forEach((place, row) => {
       const [point, part] = [
         [place, heightOf(bands, row, branch)] as [number, number],
-        partOf(bands, row, branch),
+        mostOf(sharing, row, branch),
       ];
       const last = pieces.at(-1);
       if (last && !anew.has(row)) last.points.push(point);

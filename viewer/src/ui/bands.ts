@@ -1,7 +1,18 @@
-// The panel of a lattice: its bands over the path of wave vectors, in the colour of what moves most. A click on a point
-// of a band shows that wave in the picture, over some cells.
+// The panel of a lattice: its bands over the path of wave vectors, in the colour of what moves most, or of a ribbon of
+// where that is. A click on a point of a band shows that wave in the picture, over some cells.
 
-import { type Bands, heightOf, PARTS, partOf, pathFrom, piecesOf, placesOf, verticesOf } from "../data/bands";
+import {
+  type Bands,
+  heightOf,
+  mostOf,
+  PLACES,
+  pathFrom,
+  piecesOf,
+  placesOf,
+  type Sharing,
+  sharingsOf,
+  verticesOf,
+} from "../data/bands";
 import type { Recording } from "../data/recording";
 import { servedBands, servedWave } from "../data/waves";
 import { seriesColor } from "../math/colors";
@@ -43,10 +54,12 @@ export class BandsPanel {
   private readonly keys = h("div", { class: "legend" });
   private readonly path: HTMLInputElement;
   private readonly amplitude: HTMLInputElement;
+  private readonly colors: HTMLSelectElement;
   private readonly controls: HTMLElement;
   private run: Recording | null = null;
   private bands: Bands | null = null;
   private places: number[] = [];
+  private sharings: Sharing[] = [];
   private range: [number, number] = [0, 1];
   private chosen: Point | null = null;
   /** Counts what was asked for: a late answer to an earlier question is dropped. */
@@ -70,6 +83,11 @@ export class BandsPanel {
       "aria-label": "amplitude",
       onchange: () => void this.showWave(),
     });
+    this.colors = h("select", {
+      "aria-label": "colours of bands",
+      hidden: true,
+      onchange: () => this.bands && this.draw(this.bands),
+    });
     this.controls = h(
       "div",
       { class: "wave-controls", hidden: true },
@@ -82,7 +100,7 @@ export class BandsPanel {
       this.path,
       h("span", { class: "units" }, "ω [rad/s]"),
       this.drawing,
-      this.keys,
+      h("div", { class: "coloured" }, this.colors, this.keys),
       this.said,
       this.controls,
     );
@@ -118,8 +136,23 @@ export class BandsPanel {
     if (!bands) return;
     this.bands = bands;
     this.places = placesOf(bands);
+    this.offer(bands);
     this.draw(bands);
     this.say("Click a point of a band to see its wave; arrow keys go along bands.", bands.warnings);
+  }
+
+  /** What colours may tell of these bands; the choice stays where it can. */
+  private offer(bands: Bands): void {
+    const chosen = this.colors.value;
+    this.sharings = sharingsOf(bands);
+    this.colors.replaceChildren(...this.sharings.map(({ title }) => h("option", { value: title }, title)));
+    this.colors.hidden = this.sharings.length < 2;
+    if (this.sharings.some(({ title }) => title === chosen)) this.colors.value = chosen;
+  }
+
+  /** What colours tell. */
+  private get sharing(): Sharing {
+    return this.sharings[Math.max(0, this.colors.selectedIndex)];
   }
 
   /** What was asked for; none if it was refused, which is said, or nobody waits for it any more. */
@@ -159,7 +192,7 @@ export class BandsPanel {
     const wave = await this.answered(servedWave(run, path, chosen.branch, Number(this.amplitude.value)));
     if (!wave) return;
     this.controls.hidden = false;
-    this.say(inWords(bands, chosen));
+    this.say(inWords(bands, chosen, this.sharings));
     this.ports.show(wave);
   }
 
@@ -188,7 +221,8 @@ export class BandsPanel {
   }
 
   private draw(bands: Bands): void {
-    const pieces = piecesOf(bands, this.places);
+    const { sharing } = this;
+    const pieces = piecesOf(bands, this.places, sharing);
     const heights = pieces.flatMap(({ points }) => points.map(([, height]) => height));
     const [low, high] = [Math.min(0, ...heights), Math.max(...heights, 0)];
     this.range = [1.06 * low, high > low ? 1.06 * high : 1];
@@ -216,23 +250,26 @@ export class BandsPanel {
         s("line", { class: "hair", x1: left, x2: right, y1: this.y(level), y2: this.y(level) }),
         s("text", { x: left - 6, y: this.y(level) + 4, "text-anchor": "end" }, plain(level, 4)),
       ]);
-    const lines = pieces.map(({ part, points }) =>
-      s("polyline", {
-        points: points
-          .map(([place, height]) => `${this.x(place).toFixed(2)},${this.y(height).toFixed(2)}`)
-          .join(" "),
-        stroke: seriesColor(part),
-      }),
-    );
+    // What comes first in a legend lies over what comes later: waves at the edges over the many others.
+    const lines = [...pieces]
+      .sort((a, b) => b.part - a.part)
+      .map(({ part, points }) =>
+        s("polyline", {
+          points: points
+            .map(([place, height]) => `${this.x(place).toFixed(2)},${this.y(height).toFixed(2)}`)
+            .join(" "),
+          stroke: colorOf(sharing, part),
+        }),
+      );
     this.put(this.mark, this.chosen);
     this.put(this.near, null);
     this.drawing.replaceChildren(...verticals, ...horizontals, ...lines, this.near, this.mark);
-    const shown = PARTS.map((name, part) => ({ name, part })).filter(({ part }) =>
-      pieces.some((piece) => piece.part === part),
-    );
+    const shown = sharing.names
+      .map((name, part) => ({ name, part }))
+      .filter(({ part }) => pieces.some((piece) => piece.part === part));
     this.keys.replaceChildren(
       ...shown.map(({ name, part }) =>
-        h("span", { class: "key" }, h("i", { style: `background:${seriesColor(part)}` }), name),
+        h("span", { class: "key" }, h("i", { style: `background:${colorOf(sharing, part)}` }), name),
       ),
     );
   }
@@ -262,14 +299,21 @@ export class BandsPanel {
   }
 }
 
-/** A wave in a line: κ, branch, frequency, decay, what moves. */
-function inWords(bands: Bands, { row, branch }: Point): string {
+/** The colour of a part; what is inside a ribbon has none of its own. */
+function colorOf({ names }: Sharing, part: number): string {
+  return names === PLACES && part === PLACES.length - 1 ? "var(--muted)" : seriesColor(part);
+}
+
+/** A wave in a line: κ, branch, frequency, decay, what moves, and where. */
+function inWords(bands: Bands, { row, branch }: Point, sharings: Sharing[]): string {
   const kappa = bands.kappa[row].map((part) => plain(part, 4)).join(", ");
   const [omega, decay] = [bands.omega[row][branch], bands.decay[row][branch]];
-  const share = bands.participation[row][branch][partOf(bands, row, branch)];
-  const moves = `${PARTS[partOf(bands, row, branch)]} has ${plain(100 * share, 3)} % of the energy`;
+  const most = sharings.map((sharing) => {
+    const part = mostOf(sharing, row, branch);
+    return `${sharing.names[part]} has ${plain(100 * sharing.of(row, branch)[part], 3)} % of the energy`;
+  });
   const rate =
     decay === 0 ? "" : `, ${decay < 0 ? "growth" : "decay"} ${plain(Math.abs(decay))} 1/s (not drawn)`;
   const swings = omega === 0 ? ": it does not oscillate, its shape is swung through" : "";
-  return `κ = (${kappa}), branch ${branch}: ω = ${plain(omega, 6)} rad/s${rate}${swings}; ${moves}.`;
+  return `κ = (${kappa}), branch ${branch}: ω = ${plain(omega, 6)} rad/s${rate}${swings}; ${most.join(", ")}.`;
 }

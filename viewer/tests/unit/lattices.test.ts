@@ -1,7 +1,15 @@
 // Lattices: springs of all cells, bands as they are drawn, and a wave as a recording.
 
 import { describe, expect, it } from "vitest";
-import { type Bands, partOf, pathFrom, piecesOf, placesOf, verticesOf } from "../../src/data/bands";
+import {
+  type Bands,
+  mostOf,
+  pathFrom,
+  piecesOf,
+  placesOf,
+  sharingsOf,
+  verticesOf,
+} from "../../src/data/bands";
 import { springsOf } from "../../src/data/springs";
 import { waveRecording } from "../../src/data/waves";
 import { bodyNamed, headerOf, scalars } from "./made";
@@ -81,6 +89,7 @@ describe("bands", () => {
         [1, 0, 0, 0, 0],
       ],
     ],
+    edges: [],
     labels: [
       [0, "G"],
       [1, "X"],
@@ -101,8 +110,9 @@ describe("bands", () => {
   });
 
   it("are_cut_at_breaks_and_stand_below_zero_where_they_grow", () => {
-    expect(partOf(bands, 2, 0)).toBe(0);
-    expect(piecesOf(bands, places)).toEqual([
+    const [sharing, ...others] = sharingsOf(bands);
+    expect([mostOf(sharing, 2, 0), others]).toEqual([0, []]);
+    expect(piecesOf(bands, places, sharing)).toEqual([
       {
         part: 0,
         points: [
@@ -131,6 +141,32 @@ describe("bands", () => {
           [8, 7],
         ],
       },
+    ]);
+  });
+
+  it("of_a_ribbon_are_cut_where_a_wave_comes_to_an_edge", () => {
+    const lower = [
+      [0.2, 0.2],
+      [0.7, 0.1],
+      [0.1, 0.8],
+      [0.4, 0.5],
+    ];
+    const shares = lower.map((low) => [low, [0.25, 0.25]]) as [number, number][][];
+    const [, sharing] = sharingsOf({ ...bands, begins: [0], edges: [{ direction: 2, cells: 3, shares }] });
+    expect(sharing.title).toBe("the edges along vector 2");
+    expect([0, 1, 2, 3].map((row) => sharing.names[mostOf(sharing, row, 0)])).toEqual([
+      "inside",
+      "low edge",
+      "high edge",
+      "both edges",
+    ]);
+    expect(sharing.of(3, 0)[2]).toBeCloseTo(0.9, 12);
+    const pieces = piecesOf({ ...bands, begins: [0] }, places, sharing);
+    expect(pieces.map(({ part, points }) => [part, points.length])).toEqual([
+      [3, 2],
+      [0, 2],
+      [1, 2],
+      [3, 4],
     ]);
   });
 
