@@ -1,19 +1,15 @@
 //! Fields of many bodies over a grid, at the last sample: maps over its two longest sides, or lines along one.
 //!
-//!   ρ;   |j|/ρ;   p = −tr σ/3;   τ = √(½ s:s), s = sym σ − ⅓ tr σ;   power of pairs
-//!
-//! Of a grid with three sides the middle layer is shown. What is zero everywhere has no panel. A speed is shown where
-//! there is a thousandth of the largest density: farther out it is that of the nearest body, whatever there is.
+//! Shown are [`FIELD_SCALARS`], of a grid with three sides in its middle layer. What is zero everywhere has no panel.
 
 use crate::chart::{Axis, Chart, Palette, Series, ShapeChart, Shapes};
 use crate::draw::Point;
 use crate::figure::{Figure, Panel};
 use crate::show::title;
-use gyration::tensor::Mat3;
 use gyration_record::Recording;
-use gyration_sim::fields::LocalFields;
+use gyration_sim::fields::{FIELD_SCALARS, FieldScalar};
 use gyration_sim::format::significant;
-use gyration_sim::{FieldGrid, FieldSurvey};
+use gyration_sim::{FieldGrid, FieldLayer, FieldSurvey};
 use std::collections::BTreeMap;
 
 /// About the width of a frame beside its legend [pt].
@@ -26,42 +22,14 @@ const HEIGHT: f64 = 120.0;
 /// The names of the axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The part of the largest density at which there is something that moves.
-const THIN: f64 = 1e-3;
-
-/// A field as one number a point.
-struct Shown {
-    name: &'static str,
-    unit: &'static str,
-    /// Whether it is of the mass that is there.
-    of_mass: bool,
-    of: fn(&LocalFields) -> f64,
-}
-
-const SHOWN: [Shown; 5] = [
-    Shown { name: "density", unit: "kg/m^3", of_mass: false, of: |it| it.density },
-    Shown { name: "speed", unit: "m/s", of_mass: true, of: LocalFields::speed },
-    Shown { name: "pressure −tr σ/3", unit: "Pa", of_mass: false, of: |it| -it.stress.trace() / 3.0 },
-    Shown { name: "shear stress", unit: "Pa", of_mass: false, of: |it| shear(&it.stress) },
-    Shown { name: "power of pairs", unit: "W/m^3", of_mass: false, of: |it| it.power },
-];
-
-/// √(½ s:s) of the symmetric deviator s \[Pa\].
-fn shear(stress: &Mat3) -> f64 {
-    let symmetric = 0.5 * (stress + stress.transpose());
-    let deviator = symmetric - Mat3::identity() * (symmetric.trace() / 3.0);
-    libm::sqrt(0.5 * deviator.norm_squared())
-}
-
 /// The figure of fields on a grid at their last sample; none where they are not on one, or have no sample.
 pub fn fields(recording: &Recording, found: &FieldSurvey) -> Option<Figure> {
     let (grid, fields, time) = (found.grid?, found.fields.last()?, found.times.last()?);
     let layer = Layer::of(&grid);
     let mut panels = Vec::new();
-    let most = fields.iter().map(|it| it.density).fold(0.0, f64::max);
-    for shown in &SHOWN {
-        let value = |point: &usize| Some(&fields[*point]).filter(|it| !shown.of_mass || it.density > THIN * most);
-        let values: Vec<f64> = layer.points.iter().map(|point| value(point).map_or(f64::NAN, shown.of)).collect();
+    for shown in &FIELD_SCALARS {
+        let all = shown.values(fields);
+        let values: Vec<f64> = layer.points.iter().map(|point| all[*point]).collect();
         if values.iter().any(|value| *value != 0.0 && !value.is_nan()) {
             panels.push(if layer.is_line() { layer.line(shown, &values) } else { layer.map(shown, &values) });
         }
@@ -108,39 +76,25 @@ impl GridLine {
 }
 
 impl Layer {
-    /// The middle layer along the axis with the fewest points; of equal ones along the last.
     fn of(grid: &FieldGrid) -> Self {
-        let through = (0..3).rev().min_by_key(|axis| grid.counts[*axis]).unwrap_or(2);
-        let [mut across, mut up] = match through {
-            0 => [1, 2],
-            1 => [0, 2],
-            _ => [0, 1],
-        };
-        if grid.counts[across] == 1 {
-            std::mem::swap(&mut across, &mut up);
-        }
-        let counts = grid.counts;
-        let strides = [1, counts[0], counts[0] * counts[1]];
-        let middle = counts[through] / 2;
-        let point = |i: usize, j: usize| i * strides[across] + j * strides[up] + middle * strides[through];
-        let points = (0..counts[up]).flat_map(|j| (0..counts[across]).map(move |i| (i, j)));
-        let points = points.map(|(i, j)| point(i, j)).collect();
-        let line = |axis: usize| GridLine {
+        let FieldLayer { through, along, index, points } = FieldLayer::of(grid);
+        let [across, up] = along.map(|axis| GridLine {
             name: AXES[axis],
             first: grid.origin[axis],
             spacing: grid.spacing[axis],
-            count: counts[axis],
-        };
-        let at = grid.origin[through] + grid.spacing[through] * middle as f64;
-        let place = (counts[through] > 1).then(|| format!("the layer at {} = {} m", AXES[through], significant(at, 4)));
-        Self { across: line(across), up: line(up), points, place }
+            count: grid.counts[axis],
+        });
+        let at = grid.origin[through] + grid.spacing[through] * index as f64;
+        let has_others = grid.counts[through] > 1;
+        let place = has_others.then(|| format!("the layer at {} = {} m", AXES[through], significant(at, 4)));
+        Self { across, up, points, place }
     }
 
     fn is_line(&self) -> bool {
         self.up.count == 1
     }
 
-    fn line(&self, shown: &Shown, values: &[f64]) -> Panel {
+    fn line(&self, shown: &FieldScalar, values: &[f64]) -> Panel {
         let at = |index: usize| self.across.first + self.across.spacing * index as f64;
         let points: Vec<Point> = values.iter().enumerate().map(|(index, value)| [at(index), *value]).collect();
         let x = Axis::exact(self.across.name, "m", at(0), at(self.across.count - 1));
@@ -150,7 +104,7 @@ impl Layer {
     }
 
     /// Equal lengths along both axes; the shorter one has room on both sides.
-    fn map(&self, shown: &Shown, values: &[f64]) -> Panel {
+    fn map(&self, shown: &FieldScalar, values: &[f64]) -> Panel {
         let palette = Palette::of("", shown.unit, values.iter().copied());
         let mut cells: BTreeMap<usize, Vec<[Point; 2]>> = BTreeMap::new();
         for (index, value) in values.iter().enumerate() {
@@ -200,13 +154,5 @@ mod tests {
             assert_eq!((layer.across.name, layer.is_line(), layer.points.len()), (name, true, 5), "{counts:?}");
             assert_eq!(layer.place, None);
         }
-    }
-
-    #[test]
-    fn shear_of_pure_pressure_is_none_and_of_simple_shear_itself() {
-        assert_eq!(shear(&(Mat3::identity() * -3.0)), 0.0);
-        let mut stress = Mat3::zeros();
-        (stress[(0, 1)], stress[(1, 0)]) = (2.0, 2.0);
-        assert!((shear(&stress) - 2.0).abs() < 1e-15);
     }
 }

@@ -47,7 +47,7 @@ pub mod waves;
 
 pub use adapter::Tolerance;
 pub use crowd::CrowdState;
-pub use field_samples::{FieldGrid, FieldPoints, FieldSurvey, NoFields};
+pub use field_samples::{FieldGrid, FieldLayer, FieldMap, FieldMaps, FieldPoints, FieldSurvey, NoFields};
 pub use first_steps::{FirstSteps, MomentumChange};
 pub use network::{Push, network};
 pub use outcome::{Outcome, Reason, Stop, limit_in_words};

@@ -45,13 +45,16 @@ pub fn execute(arguments: &FieldArguments) -> Result<u8, CliError> {
 }
 
 fn refused(recording: &Recording, error: NoFields) -> CliError {
-    let fix = match error {
-        NoFields::Replay(error) => return explain(recording, error),
-        NoFields::NoPairs => "write record = { pairs = true } in the scene, and run it anew",
-        NoFields::Width(_) => "write --width with a length in metres, about the distance of bodies",
-        NoFields::EmptyGrid => "write --grid with three counts, as 64,64,1",
+    let fix = match &error {
+        NoFields::Replay(_) => None,
+        NoFields::NoPairs => error.in_scene(),
+        NoFields::Width(_) => Some("write --width with a length in metres, about the distance of bodies"),
+        NoFields::EmptyGrid => Some("write --grid with three counts, as 64,64,1"),
     };
-    CliError::arguments(error.to_string(), fix)
+    match (error, fix) {
+        (NoFields::Replay(error), _) => explain(recording, error),
+        (error, fix) => CliError::arguments(error.to_string(), fix.unwrap_or_default()),
+    }
 }
 
 /// The last sample in the file, and of several all of them in a folder beside it, with their list.

@@ -1,12 +1,19 @@
 //! The fields of a recording, sample by sample and point by point, in a form to print.
 
 mod image;
+mod layer;
+mod maps;
+mod source;
 
-use crate::fields::{LocalFields, RecordedPair, Third, Weight};
-use crate::replay::{Replay, ReplayError};
+pub use layer::FieldLayer;
+pub use maps::{FieldMap, FieldMaps};
+
+use crate::fields::{LocalFields, Third, Weight};
+use crate::replay::ReplayError;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_record::Recording;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
+use source::FieldSource;
 
 /// A grid reaches beyond the outermost centres by so many widths.
 const MARGIN: f64 = 2.0;
@@ -67,32 +74,25 @@ pub enum NoFields {
     EmptyGrid,
 }
 
+impl NoFields {
+    /// What a scene must say for its runs to have them; none where it is not the scene that lacks it.
+    pub fn in_scene(&self) -> Option<&'static str> {
+        let lacks = matches!(self, Self::NoPairs);
+        lacks.then_some("write record = { pairs = true } in the scene, and run it anew")
+    }
+}
+
 impl FieldSurvey {
     /// Of each `every`-th sample and the last, with weights of a width \[m\].
     ///
     /// # Errors
     /// [`NoFields`].
     pub fn of(recording: &Recording, width: f64, points: &FieldPoints, every: usize) -> Result<Self, NoFields> {
-        if !(width > 0.0 && width.is_finite()) {
-            return Err(NoFields::Width(width));
-        }
-        let mut replay = Replay::open(recording)?;
-        let bodies = replay.model().bodies.len();
-        let meet = (0..bodies).any(|body| replay.model().meets_bodies(body));
-        let is_recorded = recording.ragged().is_some();
-        if meet && !is_recorded {
-            return Err(NoFields::NoPairs);
-        }
+        let weight = weight_of(width)?;
+        let mut source = FieldSource::open(recording)?;
         let mut rows: Vec<usize> = (0..recording.rows()).step_by(every.max(1)).collect();
         rows.extend(recording.rows().checked_sub(1).filter(|last| last % every.max(1) > 0));
-        let mut samples = Vec::with_capacity(rows.len());
-        for row in rows {
-            let recorded = match is_recorded {
-                true => Some(RecordedPair::of_row(recording, row, bodies).map_err(ReplayError::Record)?),
-                false => None,
-            };
-            samples.push(replay.granules(row, recorded.as_deref())?);
-        }
+        let samples = rows.into_iter().map(|row| source.sample(row)).collect::<Result<Vec<_>, _>>()?;
         let places = || samples.iter().flat_map(|sample| sample.grains.iter().map(|grain| grain.place));
         let (points, grid) = match points {
             FieldPoints::At(points) => (points.clone(), None),
@@ -100,11 +100,15 @@ impl FieldSurvey {
             FieldPoints::Grid(counts) => FieldGrid::over(places(), width, |_| *counts).with_points(),
             FieldPoints::Usual => FieldGrid::over(places(), width, usual_counts).with_points(),
         };
-        let weight = Weight::new(width);
         let fields = samples.iter().map(|sample| points.iter().map(|at| sample.fields(at, &weight)).collect());
         let fields = fields.collect();
         Ok(Self { width, times: samples.iter().map(|sample| sample.time).collect(), points, grid, fields })
     }
+}
+
+/// The weight of a width, if it is one.
+fn weight_of(width: f64) -> Result<Weight, NoFields> {
+    if width > 0.0 && width.is_finite() { Ok(Weight::new(width)) } else { Err(NoFields::Width(width)) }
 }
 
 /// Points along the sides of a box, 16 along the longest.
