@@ -17,6 +17,7 @@ import { Player } from "./player";
 import { BandsPanel } from "./ui/bands";
 import { Banner } from "./ui/banner";
 import { h, iconButton } from "./ui/dom";
+import { FieldsPanel } from "./ui/fields";
 import { helpDialog, listen } from "./ui/help";
 import { openLedgerInWords } from "./ui/ledger";
 import { Plots } from "./ui/plots";
@@ -54,6 +55,7 @@ export class App implements Listener {
     show: (wave) => this.showInPicture(wave),
     back: () => this.showInPicture(null),
   });
+  private readonly fields = new FieldsPanel();
   private readonly banner = new Banner();
   private readonly picture: Picture;
   private readonly tabs: Tabs;
@@ -155,6 +157,11 @@ export class App implements Listener {
       this.tabs.set("Bands", this.bands.element);
       if (this.tabs.shown === "Bands") this.bands.opened();
     }
+    if (recording.fields) {
+      this.fields.begun(recording.fields, () => recording.rowAt(this.player.time));
+      recording.fields.changed.add(() => this.remember());
+      this.tabs.set("Fields", this.fields.element);
+    }
     if (!this.hasBegun && location.hash) this.restore();
     this.hasBegun = true;
     this.picture.drawNow();
@@ -255,6 +262,7 @@ export class App implements Listener {
 
   private opened(panel: string): void {
     if (panel === "Bands") this.bands.opened();
+    if (panel === "Fields") this.fields.opened();
     if (panel === "Plots") this.plots.draw();
     this.remember();
     if (panel === "Summary" && this.recording) this.tabs.set("Summary", summaryPanel(this.recording));
@@ -264,6 +272,7 @@ export class App implements Listener {
     this.transport.moved();
     this.picture.request(frameTook);
     this.pointPlots();
+    if (!this.wave) this.fields.moved();
     if (frameTook === null) this.remember();
   }
 
@@ -273,6 +282,7 @@ export class App implements Listener {
     const look = lookIn(location.hash);
     if (look.time !== undefined || this.hasBegun) this.player.hold(look.time ?? 0);
     this.picture.restore(look);
+    this.recording.fields?.look(look.field ?? null, look.width ?? null);
     const panel = look.panel ?? (this.hasBegun ? this.tabs.first : undefined);
     if (panel !== undefined && this.tabs.has(panel)) this.tabs.open(panel);
   }
@@ -282,11 +292,13 @@ export class App implements Listener {
     if (!this.hasBegun) return;
     this.writing ||= window.setTimeout(() => {
       this.writing = 0;
-      const { player } = this;
+      const { player, recording } = this;
       if (player.playing || this.wave) return;
       const { shown } = this.tabs;
       const look = {
         ...this.picture.look(),
+        ...(recording?.fields?.shown && { field: recording.fields.key }),
+        ...(recording?.fields?.shown && recording.fields.width && { width: recording.fields.width }),
         ...(player.wanted > 0 && { time: player.wanted }),
         ...(shown && shown !== this.tabs.first && { panel: shown }),
       };

@@ -1,6 +1,6 @@
 // What is looked at, as the part of the address behind `#`: whoever opens the link sees the same.
 //
-//   #t=0.245&show=forces,joints&color=stretch&body=die&follow=1&camera=1,2,3,0,0,0&panel=Summary
+//   #t=0.245&show=forces,joints&color=stretch&body=die&follow=1&camera=1,2,3,0,0,0&panel=Summary&field=speed&width=0.1
 //
 // The camera is place and target [m], from the followed centre where one is followed. What is as it begins is left out,
 // and parts of others are kept.
@@ -20,12 +20,15 @@ export interface Look {
   follow?: boolean;
   camera?: Sight;
   panel?: string;
+  /** The field that is shown, and its width [m] if that is not the usual one. */
+  field?: string;
+  width?: number;
 }
 
 /** What is this much shorter than the camera is away cannot be seen. */
 const CLOSE = 1e-6;
 
-const OWN = ["t", "show", "color", "body", "group", "follow", "camera", "panel"];
+const OWN = ["t", "show", "color", "body", "group", "follow", "camera", "panel", "field", "width"];
 
 /** What an address asks for; parts that make no sense are left out. */
 export function lookIn(hash: string): Look {
@@ -67,6 +70,13 @@ export function lookIn(hash: string): Look {
   given("panel", (value) => {
     look.panel = value;
   });
+  given("field", (value) => {
+    look.field = value;
+  });
+  given("width", (value) => {
+    const width = numberIn(value);
+    if (width > 0 && Number.isFinite(width)) look.width = width;
+  });
   return look;
 }
 
@@ -81,7 +91,7 @@ export function hashOf(look: Look, before: string): string {
     .replace(/^#/, "")
     .split("&")
     .filter((part) => part !== "" && ![...new URLSearchParams(part).keys()].some((key) => OWN.includes(key)));
-  const { time, show, color, body, group, follow, camera, panel } = look;
+  const { time, show, color, body, group, follow, camera, panel, field, width } = look;
   const far = camera ? Math.hypot(...camera.position.map((part, axis) => part - camera.target[axis])) : 0;
   const rounded = (part: number) => (Math.abs(part) < CLOSE * far ? 0 : Number(part.toPrecision(6)));
   const numbers = camera && [...camera.position, ...camera.target].map(rounded);
@@ -94,6 +104,8 @@ export function hashOf(look: Look, before: string): string {
     ["follow", follow === undefined ? undefined : follow ? "1" : "0"],
     ["camera", numbers?.join(",")],
     ["panel", panel],
+    ["field", field],
+    ["width", width?.toString()],
   ];
   const written = own.flatMap(([key, value]) =>
     value === undefined ? [] : [`${key}=${encodeURIComponent(value).replaceAll("%2C", ",")}`],

@@ -42,6 +42,7 @@ export class Picture {
   private readonly stage: Stage | null;
   private view: SceneView | null = null;
   private playing = false;
+  private readonly redraw = () => this.request(null);
   /** Called after the reader has moved the camera or changed what is shown. */
   settled: () => void = () => {};
 
@@ -93,6 +94,7 @@ export class Picture {
     stage.expect(recording.header.bodies.length);
     this.view = new SceneView(stage, recording, this.shown, again ? before.framing : null);
     if (recording.network) recording.network.came = () => this.request(null);
+    recording.fields?.changed.add(this.redraw);
     this.toolbar.load(recording, this.view);
     if (!again) stage.look();
     this.scales.load(classesOf(recording.header));
@@ -192,7 +194,7 @@ export class Picture {
     this.edge.show(view.edgeMarks());
     const grid =
       this.shown.supports && view.recording.header.supports.length > 0 ? view.supports.spacing : null;
-    this.scales.show(view.colors.scale(this.shown.coloring), view.network.scale, grid);
+    this.scales.show(view.colors.scale(this.shown.coloring), view.network.scale, view.fields.scale, grid);
   }
 
   /** A click on a body chooses it, a click beside all bodies chooses none. */

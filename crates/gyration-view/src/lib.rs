@@ -5,6 +5,7 @@
 //!                       └─→ Server ─→ page: header (JSON), blobs (arrays)
 //! scene ─→ Live (a thread that runs it) ─→ Server ─→ page: websocket
 //! lattice ─→ Waves ─→ Server ─→ page: bands, a wave as rows of one period
+//! recording ─→ fields ─→ Server ─→ page: a map of a sample
 //! ```
 //!
 //! The page is built from `viewer/` and embedded ([`page`]); it knows recordings only: `gyration-page` says what one is
@@ -15,6 +16,7 @@
 
 mod computed;
 mod error;
+mod fields;
 mod live;
 pub mod page;
 mod report;

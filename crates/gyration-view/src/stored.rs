@@ -58,6 +58,11 @@ impl Stored {
         self.recording.path()
     }
 
+    /// The recording itself.
+    pub(crate) fn recording(&self) -> &Recording {
+        &self.recording
+    }
+
     /// The scene that was run, ready to run again.
     ///
     /// # Errors

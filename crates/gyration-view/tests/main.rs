@@ -5,6 +5,7 @@
 mod common;
 mod connections;
 mod corpus;
+mod fields;
 mod live;
 mod network;
 mod recording;

@@ -3,6 +3,7 @@
 // Time is f64, everything else f32, row after row. Rows are only ever added at the end; whoever draws asks
 // `generation` and `rows` whether there is something new.
 
+import type { Fields } from "./fields";
 import type { ArraySpec, Header } from "./header";
 import type { Network } from "./network";
 
@@ -47,6 +48,8 @@ export class Recording {
   events: RunEvent[] = [];
   /** The forces between bodies; `null` where the source cannot tell them. */
   network: Network | null = null;
+  /** The fields of its bodies; `null` where the source cannot tell them. */
+  fields: Fields | null = null;
 
   constructor(public header: Header) {
     for (const spec of header.arrays) this.tracks.set(spec.name, new Track(spec));

@@ -1,5 +1,6 @@
 // A recording on the server's disk. One that is still being written is asked for new rows each second.
 
+import { type FieldMap, Fields, mapIn } from "./fields";
 import { checkedHeader, type Header } from "./header";
 import { Network, type Samples } from "./network";
 import { Recording } from "./recording";
@@ -25,6 +26,8 @@ class Served implements Source {
 
   constructor(first: Header) {
     this.recording = new Recording(first);
+    // Of one body alone a mean tells nothing.
+    if (first.bodies.length > 1) this.recording.fields = new Fields(servedMap);
     if (first.network) this.recording.network = new Network(forcesFrom(this.recording));
   }
 
@@ -116,6 +119,12 @@ function forcesFrom(recording: Recording): (row: number) => Promise<Samples> {
     const to = Math.min(recording.rows, row + many);
     return { first: row, numbers: new Float32Array(await bytes(`network?from=${row}&to=${to}`)) };
   };
+}
+
+/** The map of the fields at a sample, with a width [m] or the usual one. */
+async function servedMap(row: number, width: number | null): Promise<FieldMap> {
+  const query = width === null ? "" : `&width=${width}`;
+  return mapIn(await (await answer(`api/fields?row=${row}${query}`)).arrayBuffer());
 }
 
 /** An answer of the server that is an error, in its words. */

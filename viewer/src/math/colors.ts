@@ -9,8 +9,11 @@ const ROUNDS = [
   { share: 0.6, rest: 0 },
 ];
 
+/** Below zero, zero, above zero: as on paper. */
+export const TWO_SIDED = ["#003c6e", "#56a0d4", "#f7f7f7", "#ee934f", "#8a3500"].map(rgb);
+
 /** Viridis by every ninth of its range; straight lines between them stay close enough to be uniform to the eye. */
-const VIRIDIS = [
+export const VIRIDIS = [
   "#440154",
   "#482878",
   "#3e4989",

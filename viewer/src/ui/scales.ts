@@ -4,6 +4,7 @@ import { type BodyClasses, classLabel, MOST_ALONE } from "../data/classes";
 import { mapGradient, seriesColor } from "../math/colors";
 import { plain, scaleFor, withUnit } from "../math/format";
 import type { Scale } from "../view/coloring";
+import { gradientOf } from "../view/fields";
 import { FORCE_COLORS } from "../view/network";
 import { h } from "./dom";
 
@@ -14,21 +15,25 @@ class Bar {
   readonly element: HTMLElement;
   private readonly title = h("div", { class: "scale-title" });
   private readonly numbers = h("div", { class: "scale-numbers" });
+  private readonly colors = h("div", { class: "scale-gradient" });
 
-  constructor(label: string, gradient: string) {
-    const colors = h("div", { class: "scale-gradient", style: `background:${gradient}` });
+  constructor(
+    label: string,
+    private readonly gradient: string,
+  ) {
     this.element = h(
       "div",
       { class: "scale", role: "img", "aria-label": label },
       this.title,
-      colors,
+      this.colors,
       this.numbers,
     );
   }
 
-  show(scale: Scale | null): void {
+  show(scale: Scale | null, gradient = this.gradient): void {
     this.element.hidden = scale === null;
     if (!scale) return;
+    this.colors.style.background = gradient;
     const { low, high, title } = scale;
     const [factor, units] = scaleFor(Math.max(Math.abs(low), Math.abs(high)), scale.units);
     this.title.textContent = units === "1" ? title : `${title} [${units}]`;
@@ -46,12 +51,19 @@ export class Scales {
   readonly element: HTMLElement;
   private readonly bar = new Bar("colour bar", mapGradient("to right"));
   private readonly forces = new Bar("colours of forces", mapGradient("to right", FORCE_COLORS));
+  private readonly fields = new Bar("colours of fields", mapGradient("to right"));
   private readonly classes = h("div", { class: "classes", role: "list", "aria-label": "colours of bodies" });
   private readonly grid = h("div", { class: "grid-note" });
   private shown = "";
 
   constructor() {
-    const bars = h("div", { class: "scale-bars" }, this.forces.element, this.bar.element);
+    const bars = h(
+      "div",
+      { class: "scale-bars" },
+      this.fields.element,
+      this.forces.element,
+      this.bar.element,
+    );
     this.element = h("div", { class: "scales" }, bars, this.classes, this.grid);
   }
 
@@ -66,14 +78,17 @@ export class Scales {
     );
   }
 
-  /** The scale of the bodies, and that of the forces between them. */
-  show(scale: Scale | null, forces: Scale | null, grid: number | null): void {
-    const key = JSON.stringify([scale, forces, grid]);
+  /** The scale of the bodies, those of the forces between them and of a field. */
+  show(scale: Scale | null, forces: Scale | null, field: Scale | null, grid: number | null): void {
+    const key = JSON.stringify([scale, forces, field, grid]);
     if (key === this.shown) return;
     this.shown = key;
     this.classes.hidden = scale !== null;
     this.bar.show(scale);
     this.forces.show(forces);
+    this.fields.show(field, field ? gradientOf([field.low, field.high]) : undefined);
+    // Words over a map need a ground.
+    this.element.classList.toggle("grounded", field !== null);
     this.grid.textContent = grid === null ? "" : `grid ${withUnit(grid, "m", 3)}`;
   }
 }

@@ -9,6 +9,7 @@ import { rgb } from "../math/colors";
 import type { EdgeMark } from "../ui/edge";
 import { BodyLayer } from "./bodies";
 import { type Coloring, Colors } from "./coloring";
+import { FieldLayer } from "./fields";
 import { type Framing, framed } from "./framing";
 import { GhostLayer } from "./ghosts";
 import { JointLayer } from "./joints";
@@ -60,6 +61,7 @@ export class SceneView {
   private readonly joints: JointLayer;
   private readonly vectors: VectorLayer;
   readonly network: NetworkLayer;
+  readonly fields: FieldLayer;
   private readonly trails: TrailLayer;
   private ghosts: GhostLayer;
   private followed: { bodies: number[]; at: Vector3 } | null = null;
@@ -86,6 +88,7 @@ export class SceneView {
     this.joints = new JointLayer(recording);
     this.vectors = new VectorLayer(recording);
     this.network = new NetworkLayer(recording, (mesh) => stage.root.add(mesh));
+    this.fields = new FieldLayer(recording.fields);
     this.trails = new TrailLayer(recording);
     this.ghosts = new GhostLayer(recording, stage.quality);
     stage.root.clear();
@@ -96,7 +99,13 @@ export class SceneView {
       this.outlines.group,
       this.vectors.group,
     );
-    stage.root.add(this.springs.group, this.joints.group, this.trails.lines, this.ghosts.group);
+    stage.root.add(
+      this.springs.group,
+      this.joints.group,
+      this.trails.lines,
+      this.ghosts.group,
+      this.fields.mesh,
+    );
     this.cast();
     this.fit(kept ?? framed(recording));
     // A run that starts again is looked at as the one before.
@@ -157,6 +166,7 @@ export class SceneView {
     this.vectors.shown = shown;
     this.vectors.place(frame);
     this.network.place(frame, shown.network);
+    this.fields.place(frame.row);
     PALENESS.pale.value = shown.network ? PALE : 0;
     this.trails.lines.visible = shown.trails;
     this.trails.place(frame.row);
@@ -216,6 +226,7 @@ export class SceneView {
     this.joints.dispose();
     this.vectors.dispose();
     this.network.dispose();
+    this.fields.dispose();
     this.trails.dispose();
     this.ghosts.dispose();
   }

@@ -15,6 +15,8 @@ describe("a link", () => {
       follow: true,
       camera: { position: [1, -2.5, 1e-3], target: [0, 0, 3] },
       panel: "Summary",
+      field: "pressure",
+      width: 0.05,
     };
     expect(lookIn(hashOf(look, ""))).toEqual(look);
     expect(lookIn(hashOf({ body: "die", follow: false, show: [] }, ""))).toEqual({
@@ -46,6 +48,8 @@ describe("a link", () => {
       "#camera= ,1,2,3,4,5",
       "#camera=1e308,-1e308,0,-1e308,1e308,0",
       "#t=0x10",
+      "#width=-1",
+      "#width=wide",
     ]) {
       expect(lookIn(hash), hash).toEqual({});
     }

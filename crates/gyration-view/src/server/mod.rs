@@ -6,6 +6,7 @@
 //! GET /TOKEN/api/blob/NAME?from=&to=   numbers of a recording
 //! GET /TOKEN/api/live                  websocket of a live run
 //! GET /TOKEN/api/bands, /api/wave      waves of a lattice
+//! GET /TOKEN/api/fields                fields of a recording
 //! ```
 //!
 //! It listens on 127.0.0.1 and answers only requests that call it by that name, have the token of its address and come
@@ -14,6 +15,7 @@
 
 mod address;
 mod connections;
+mod fields;
 mod guard;
 mod shown;
 mod socket;
@@ -32,7 +34,7 @@ use axum::routing::get;
 pub use connections::Limits;
 use serde::Deserialize;
 use serde_json::json;
-use shown::{BadRequest, Shown};
+use shown::{BadRequest, Shown, apart};
 use std::future::Future;
 use std::net::{Ipv4Addr, TcpListener};
 use std::sync::{Arc, PoisonError, RwLock};
@@ -111,7 +113,8 @@ fn router(shown: Arc<Shown>, address: Address) -> Router {
         .route("/api/blob/{*name}", get(blob_of))
         .route("/api/live", get(socket::live))
         .with_state(Arc::clone(&shown))
-        .merge(waves::routes(shown));
+        .merge(waves::routes(Arc::clone(&shown)))
+        .merge(fields::routes(shown));
     // What the page asks for stands relative to its address, which must therefore end with a slash.
     let moved = Redirect::temporary(&page);
     Router::new()
@@ -153,13 +156,10 @@ async fn blob_of(
     Path(name): Path<String>,
     Query(rows): Query<RowsQuery>,
 ) -> Result<Response, BadRequest> {
-    let Shown::Recording(stored) = &*shown else {
+    let Some(stored) = shown.stored() else {
         return Err(BadRequest(StatusCode::NOT_FOUND, "a live run is sent by websocket, at /api/live".to_owned()));
     };
-    let stored = Arc::clone(&stored.read().unwrap_or_else(PoisonError::into_inner));
     let rows = rows.from.unwrap_or(0)..rows.to.unwrap_or(stored.rows());
-    // Reading may take long: other requests are answered meanwhile.
-    let read = tokio::task::spawn_blocking(move || stored.blob(&name, rows, 1)).await;
-    let bytes = read.map_err(|error| BadRequest(StatusCode::INTERNAL_SERVER_ERROR, error.to_string()))??;
+    let bytes = apart(move || Ok(stored.blob(&name, rows, 1)?)).await?;
     Ok(([(header::CONTENT_TYPE, "application/octet-stream")], bytes).into_response())
 }

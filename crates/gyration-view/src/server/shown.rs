@@ -17,6 +17,14 @@ pub(super) enum Shown {
 }
 
 impl Shown {
+    /// The recording that is shown, as it was when its header was asked for last.
+    pub(super) fn stored(&self) -> Option<Arc<Stored>> {
+        match self {
+            Self::Recording(stored) => Some(Arc::clone(&stored.read().unwrap_or_else(PoisonError::into_inner))),
+            Self::Live(_) => None,
+        }
+    }
+
     /// The scene of what is shown, ready to run; that of a recording is `known` once it was asked for.
     pub(super) fn scene(&self, known: Option<&Arc<Scene>>) -> Result<Arc<Scene>, BadRequest> {
         match (self, known) {
@@ -51,4 +59,17 @@ impl IntoResponse for BadRequest {
     fn into_response(self) -> Response {
         (self.0, [(header::CONTENT_TYPE, "text/plain; charset=utf-8")], self.1).into_response()
     }
+}
+
+/// A request that is understood and cannot be met, for this reason.
+pub(super) fn refused(reason: String) -> BadRequest {
+    BadRequest(StatusCode::UNPROCESSABLE_ENTITY, reason)
+}
+
+/// What takes long; other requests are answered meanwhile.
+pub(super) async fn apart<T: Send + 'static>(
+    work: impl FnOnce() -> Result<T, BadRequest> + Send + 'static,
+) -> Result<T, BadRequest> {
+    let done = tokio::task::spawn_blocking(work).await;
+    done.map_err(|error| BadRequest(StatusCode::INTERNAL_SERVER_ERROR, error.to_string()))?
 }

@@ -5,11 +5,11 @@
 //! GET api/wave?path=&branch=&amplitude=     the wave at the first point of the path
 //! ```
 
-use super::shown::{BadRequest, Shown};
+use super::shown::{BadRequest, Shown, apart, refused};
 use crate::waves::Waves;
 use axum::Router;
 use axum::extract::{Query, State};
-use axum::http::{StatusCode, header};
+use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use serde::Deserialize;
@@ -42,10 +42,6 @@ impl Lattice {
     }
 }
 
-fn refused(reason: String) -> BadRequest {
-    BadRequest(StatusCode::UNPROCESSABLE_ENTITY, reason)
-}
-
 #[derive(Debug, Deserialize)]
 struct BandsQuery {
     path: Option<String>,
@@ -72,12 +68,4 @@ async fn wave(
 ) -> Result<Response, BadRequest> {
     let found = apart(move || lattice.waves()?.wave(&path, branch, amplitude).map_err(refused)).await?;
     Ok(([(header::CONTENT_TYPE, "application/octet-stream")], found).into_response())
-}
-
-/// Other requests are answered meanwhile.
-async fn apart<T: Send + 'static>(
-    work: impl FnOnce() -> Result<T, BadRequest> + Send + 'static,
-) -> Result<T, BadRequest> {
-    let done = tokio::task::spawn_blocking(work).await;
-    done.map_err(|error| BadRequest(StatusCode::INTERNAL_SERVER_ERROR, error.to_string()))?
 }
