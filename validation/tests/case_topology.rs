@@ -142,21 +142,10 @@ fn a_ribbon_of_it_has_waves_along_its_edges() {
     };
     let rows = 10;
     let scene = honeycomb(&format!(", repeat = [1, {rows}, 1], periodic = [true, false]"), 0.3);
-    let options = BandOptions { points: 25, shapes: true, ..BandOptions::default() };
+    let options = BandOptions { points: 25, ..BandOptions::default() };
     let found = BandSurvey::of(&scene, Some("0,0,0 1,0,0"), options).unwrap_or_else(|error| panic!("{error}"));
-    let shapes = found.shapes.as_ref().unwrap();
-    // The share of a wave in the lower half of the rows, and in the three at each edge.
-    let shares = |row: usize, branch: usize| {
-        let (mut lower, mut edges, mut all) = (0.0, 0.0, 0.0);
-        for (name, shape) in &shapes[row][branch].0 {
-            let energy = shape.translation.iter().flatten().map(|part| part * part).sum::<f64>();
-            let place: usize = name.rsplit('-').next().and_then(|number| number.parse().ok()).unwrap();
-            lower += if 2 * place < rows { energy } else { 0.0 };
-            edges += if place < 3 || place + 3 >= rows { energy } else { 0.0 };
-            all += energy;
-        }
-        (lower / all, edges / all)
-    };
+    // Three rows at each edge.
+    assert_eq!((found.edges[0].direction, found.edges[0].cells), (2, 3));
     let listed = [
         ("lower gap, least share at the edges", "lower gap, waves that cross it on an edge", [0.5, 0.57]),
         ("middle gap, least share at the edges", "middle gap, waves that cross it on an edge", [1.26, 1.37]),
@@ -167,13 +156,13 @@ fn a_ribbon_of_it_has_waves_along_its_edges() {
         let middle = from + 0.4 * (to - from);
         for (row, omega) in found.omega.iter().enumerate() {
             for branch in 0..omega.len() {
-                let (lower, edges) = shares(row, branch);
+                let [lower, upper] = found.edges[0].shares[row][branch];
                 if (from..to).contains(&omega[branch]) {
-                    least = least.min(edges);
+                    least = least.min(lower + upper);
                 }
                 let next = found.omega.get(row + 1).map_or(omega[branch], |next| next[branch]);
                 if (omega[branch] - middle) * (next - middle) < 0.0 {
-                    net[usize::from(lower < 0.5)] += if next > omega[branch] { 1 } else { -1 };
+                    net[usize::from(lower < upper)] += if next > omega[branch] { 1 } else { -1 };
                 }
             }
         }
