@@ -69,7 +69,8 @@ fn a_map_has_the_means_of_the_bodies_at_its_points() {
     let counts = [0, 1].map(|side| head["counts"][side].as_u64().unwrap() as usize);
     let b = 0.1_f64;
     for (at, found) in fields[0].iter().enumerate() {
-        let place = |index: usize, first: f64, side: f64, count: usize| first + side * index as f64 / (count - 1) as f64;
+        let place =
+            |index: usize, first: f64, side: f64, count: usize| first + side * index as f64 / (count - 1) as f64;
         let [here, there] = [place(at % counts[0], x, across, counts[0]), place(at / counts[0], z, up, counts[1])];
         let weight = |center: f64| (-((here - center).powi(2) + there.powi(2)) / (2.0 * b * b)).exp();
         let known = 2.0 * (weight(0.0) + weight(0.3)) / (TAU * b * b).powf(1.5);

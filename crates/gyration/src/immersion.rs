@@ -9,8 +9,8 @@
 //! aspect ratio r moves on an orbit C = √((p·g)² + (p·e)²/r²)/|p·v| (Leal and Hinch), told as C/(1 + C). What does not
 //! apply is NaN. Source: Batchelor (1970); `docs/theory-fluid.md`.
 
-use crate::dynamics::{HistoryReaction, RigidImmersion, Scratch, beside_walls, immersion};
-use crate::fluid::{Fluid, Immersed};
+use crate::dynamics::{RigidImmersion, Scratch, beside_walls, history_reaction, immersion};
+use crate::fluid::{Fluid, HistoryReaction, Immersed};
 use crate::inadmissible::Inadmissible;
 use crate::instant::{BodyAt, KindAt, MotionAt};
 use crate::state::{BodyMotion, Turn};
@@ -63,7 +63,7 @@ pub fn observe_immersion(at: &BodyAt, scratch: &mut Scratch) -> Result<Option<Im
         KindAt::Rigid(_, turn) => rigid(at, turn)?,
         KindAt::Affine(..) | KindAt::Contractile(..) => deformable(at, fluid)?,
     };
-    let remembered = HistoryReaction::of(at, scratch)?;
+    let remembered = history_reaction(at, scratch)?;
     let tractions = tractions.map(|tractions| tractions.with(remembered.as_ref()));
     Ok(tractions.map(|tractions| told(fluid, at.time, at.motion, &tractions)))
 }

@@ -1,12 +1,10 @@
 //! What a body is built among: the files beside the scene, the length of the run, the supports, the fluid.
 
-use super::signal::Value;
 use crate::check::PartialScene;
 use crate::document::Document;
 use crate::file::{Flow, Fluid};
 use crate::quantity::AnyQuantity;
 use crate::tree::Node;
-use gyration::tensor::Mat3;
 use gyration_files::Files;
 use std::collections::BTreeMap;
 
@@ -68,8 +66,8 @@ impl<'a> SceneContext<'a> {
 fn strains(fluid: &Fluid) -> bool {
     match &fluid.velocity_gradient {
         Flow::Steady(rows) => {
-            let gradient = rows.tensor();
-            gradient + gradient.transpose() != Mat3::zeros()
+            let entry = |i: usize, j: usize| f64::from(rows[i][j]);
+            (0..3).any(|i| (0..=i).any(|j| entry(i, j) + entry(j, i) != 0.0))
         }
         Flow::Changing(_) => true,
     }

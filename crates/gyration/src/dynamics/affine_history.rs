@@ -7,11 +7,10 @@
 //! with the steady loads of the fluid, which are those of the ellipsoid that the sphere has become. Source:
 //! `docs/fluid-memory.md`.
 
-use super::history_reaction::HistoryReaction;
 use super::loads::Acting;
 use crate::affine::{Accelerated, AddedBalance, AddedInertia, AffineBalance, AffineBody, Gyration};
 use crate::body::{Affine, Slots};
-use crate::fluid::{History, HistoryLoads, StrainLoads, deviator};
+use crate::fluid::{History, HistoryLoads, HistoryReaction, StrainLoads, deviator};
 use crate::instant::MotionAt;
 use crate::ledger::Work;
 use crate::load::{LoadSlopes, Loads, unit};

@@ -4,9 +4,8 @@
 //!
 //! f and τ with the loads of the history (`fluid::HistoryLoads`) that do not depend on the accelerations.
 
-use super::history_reaction::HistoryReaction;
 use crate::body::{RigidInertia, Slots};
-use crate::fluid::{History, HistoryLoads};
+use crate::fluid::{History, HistoryLoads, HistoryReaction};
 use crate::instant::MotionAt;
 use crate::load::Wrench;
 use crate::state::Turn;

@@ -48,7 +48,7 @@ pub(crate) use affine::{balance as affine_balance, moment};
 pub(crate) use body_rates::{BodyLoads, body_rates};
 pub(crate) use by_kind::{about_pin, linear_friction};
 pub(crate) use contractile::ContractileMotion;
-pub(crate) use history_reaction::{HistoryReaction, of_history};
+pub(crate) use history_reaction::{history_reaction, of_history};
 pub(crate) use immersed::{RigidImmersion, beside_walls, immersion};
 pub(crate) use outside::outside_loads;
 

@@ -14,6 +14,7 @@ use super::ambient::{Flow, Fluid};
 use super::straining::{STRAIN_NUMBERS, StrainHistory, StrainLoads};
 use super::unsteady::{Exponentials, UnresolvedHistory};
 use crate::extended::{Extended, ExtendedVec3, Numbers};
+use crate::load::Loads;
 use crate::tensor::{Mat3, Vec3, axial};
 use std::f64::consts::PI;
 
@@ -59,6 +60,22 @@ pub struct HistoryLoads {
     spin_slip: ExtendedVec3,
     /// Of the strain, if that counts.
     pub strain: Option<StrainLoads>,
+}
+
+/// Force and moment of the history and of the added mass, in the axes of space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct HistoryReaction {
+    /// f \[N\].
+    pub force: Vec3,
+    /// Nᵀ \[N m\]: ½ [T]× of a torque T, and of what strains a symmetric tensor.
+    pub couple: Mat3,
+}
+
+impl HistoryReaction {
+    /// f and M = Nᵀ P⁻ᵀ.
+    pub fn loads(&self, inverse: &Mat3) -> Loads {
+        Loads { force: self.force, moment: self.couple * inverse.transpose() }
+    }
 }
 
 impl History {

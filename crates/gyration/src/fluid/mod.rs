@@ -41,6 +41,7 @@ mod wall;
 pub use ambient::{Flow, Fluid};
 pub use ellipsoid::{FluidEllipsoid, FormSlope, Stress};
 pub use fixed::{DragSlopes, FixedForm, RigidDrag};
+pub(crate) use history::HistoryReaction;
 pub use history::{History, HistoryLoads};
 pub use immersed::Immersed;
 pub use inclusion::{Form, ImmersedEllipsoid, Inclusion, MOST_SLENDER, SurfaceForm};

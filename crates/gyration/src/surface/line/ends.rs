@@ -2,9 +2,7 @@
 
 use pulp::Simd;
 
-use super::LineKernel;
-use crate::simd::{F64s, Log2, SplitExponent, integer_power};
-use crate::surface::Kernel;
+use crate::simd::{F64s, Log2};
 
 /// The highest degree of a moment along a segment.
 pub(crate) const HIGHEST_DEGREE: usize = 5;
@@ -37,46 +35,6 @@ pub(crate) struct End<S: Simd> {
     pub power: F64s<S>,
     /// log₂ d.
     pub log: Log2<S>,
-}
-
-/// A kernel as the ends of segments need it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct EndKernel<'a> {
-    pub line: &'a LineKernel,
-    exponent: SplitExponent,
-    needs_log: bool,
-}
-
-impl<'a> EndKernel<'a> {
-    /// Of a kernel that is prepared for segments.
-    pub fn new(line: &'a LineKernel) -> Self {
-        let exponent = match line.kernel {
-            Kernel::Power(exponent) => exponent,
-            Kernel::Log => 1.0,
-        };
-        Self { line, exponent: SplitExponent::new(exponent), needs_log: line.needs_log_in_registers() }
-    }
-
-    /// The ends at these gaps.
-    #[inline(always)]
-    pub fn at<S: Simd>(&self, gap: F64s<S>) -> End<S> {
-        let inverse = 1.0 / gap;
-        let log = if self.needs_log { Log2::new(gap) } else { Log2::unread(gap.simd) };
-        let power = match self.line.integer {
-            Some(exponent) => integer_power(gap, inverse, exponent),
-            None => log.negative_power(&self.exponent),
-        };
-        End { gap, inverse, power, log }
-    }
-
-    /// The kernel itself at an end.
-    #[inline(always)]
-    pub fn value<S: Simd>(&self, end: &End<S>) -> F64s<S> {
-        match self.line.kernel {
-            Kernel::Power(_) => end.power,
-            Kernel::Log => end.log.natural(),
-        }
-    }
 }
 
 /// Moments that are all zero.
