@@ -1,7 +1,7 @@
 //! The memory of small strains: an affine sphere in a fluid with inertia, against transforms in closed form.
 //!
-//! In units of τ = R²ρ_f/η and of 3ηV, with ℓ = √s, a shear x in the plane xy of a sphere with the shear modulus μ, in a
-//! fluid that strains by E,
+//! In units of τ = R²ρ_f/η and of 3ηV, with ℓ = √s, a shear x in the plane xy of a sphere with the shear modulus μ, in
+//! a fluid that strains by E,
 //!
 //!   [m s² + s + (5/9) s²/(1 + ℓ) + k] X̂ = m (s x₀ + v₀) + x₀ (1 + (5/9) s/(1 + ℓ)) + Ê [5/3 + s/9 + (5/9) s/(1 + ℓ)]
 //!   m = ρ_p/(15ρ_f) + 2/45,   k = 2μτ/(3η)
@@ -48,8 +48,8 @@ fn drive(s: Scalar) -> Scalar {
     s * memory(s) + s / 9.0 + 5.0 / 3.0
 }
 
-/// (1/π) ∫₀^∞ Im F(r e^(−iπ)) e^(−rt) dr by the trapezoid rule in ln r, which converges exponentially: a pole beside the
-/// cut by a fiftieth of itself costs e^(−40).
+/// (1/π) ∫₀^∞ Im F(r e^(−iπ)) e^(−rt) dr by the trapezoid rule in ln r, which converges exponentially: a pole beside
+/// the cut by a fiftieth of itself costs e^(−40).
 fn cut(transform: impl Fn(Scalar) -> Scalar, time: f64) -> f64 {
     let step = 0.003;
     let term = |index: i32| {

@@ -1,5 +1,5 @@
-//! What one call of the mechanics costs: rates and Jacobian of a body near a plane, rates of two bodies that meet and of
-//! a soft cube alone.
+//! What one call of the mechanics costs: rates and Jacobian of a body near a plane, rates of two bodies that meet and
+//! of a soft cube alone.
 //!
 //! The floor is that of the moments of a box: twelve triangles, of which each takes 518 products and sums for the loads
 //! of three laws, 1,008 with their derivatives (counted in the instructions of both, `bench/2026-11-21.md`).

@@ -2,8 +2,8 @@
 //!
 //!   P̈ J + 𝒦:(P̈ P⁻¹) P⁻ᵀ = M̂ + q P⁻ᵀ,     𝒦:X = a_W skw X + a_E dev sym X + a_V ⅓ tr(X) I
 //!
-//! M̂ = M − V S, with 𝒦:L² P⁻ᵀ in M, since L̇ = P̈ P⁻¹ − L². Its kinetic energy is ½ L·𝒦:L. q is what the pressure of an
-//! incompressible body grows by, over V, so that tr(P̈ P⁻¹) = tr(L²). The left side is a symmetric positive definite
+//! M̂ = M − V S, with 𝒦:L² P⁻ᵀ in M, since L̇ = P̈ P⁻¹ − L². Its kinetic energy is ½ L·𝒦:L. q is what the pressure of
+//! an incompressible body grows by, over V, so that tr(P̈ P⁻¹) = tr(L²). The left side is a symmetric positive definite
 //! matrix of nine rows on P̈,
 //!
 //!   K δP̈ = δM̂ + q δ(P⁻ᵀ) + δq P⁻ᵀ − δK P̈
