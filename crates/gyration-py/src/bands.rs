@@ -138,15 +138,7 @@ fn along_path<'py>(py: Python<'py>, found: &BandSurvey) -> PyResult<Bound<'py, P
     told.set_item("velocity", array(py, velocity, &[rows, branches, 3])?)?;
     let shares = found.participation.concat().concat();
     told.set_item("participation", array(py, shares, &[rows, branches, PARTS])?)?;
-    let edges = PyList::empty(py);
-    for along in &found.edges {
-        let one = PyDict::new(py);
-        one.set_item("direction", along.direction)?;
-        one.set_item("cells", along.cells)?;
-        one.set_item("shares", array(py, along.shares.concat().concat(), &[rows, branches, 2])?)?;
-        edges.append(one)?;
-    }
-    told.set_item("edges", edges)?;
+    told.set_item("edges", edges_of(py, found, [rows, branches])?)?;
     if let Some(shapes) = &found.shapes {
         told.set_item("shapes", shapes_of_bodies(py, shapes, [rows, branches])?)?;
     }
@@ -186,6 +178,19 @@ fn along_path<'py>(py: Python<'py>, found: &BandSurvey) -> PyResult<Bound<'py, P
     told.set_item("warnings", &found.warnings)?;
     found.warnings.iter().try_for_each(|warning| errors::warn(py, Some(warning.clone())))?;
     Ok(told)
+}
+
+/// How much of each wave is at the edges of a ribbon.
+fn edges_of<'py>(py: Python<'py>, found: &BandSurvey, [rows, branches]: [usize; 2]) -> PyResult<Bound<'py, PyList>> {
+    let edges = PyList::empty(py);
+    for along in &found.edges {
+        let one = PyDict::new(py);
+        one.set_item("direction", along.direction)?;
+        one.set_item("cells", along.cells)?;
+        one.set_item("shares", array(py, along.shares.concat().concat(), &[rows, branches, 2])?)?;
+        edges.append(one)?;
+    }
+    Ok(edges)
 }
 
 /// δp₀ and δP of every body in every wave.

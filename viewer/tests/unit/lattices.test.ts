@@ -144,6 +144,15 @@ describe("bands", () => {
     ]);
   });
 
+  it("of_a_ribbon_are_inside_if_they_are_alike_all_over", () => {
+    for (const many of [4, 5, 7, 8, 11, 40]) {
+      const share = Math.floor(many / 4) / many;
+      const shares = [[[share, share]]] as [number, number][][];
+      const [, sharing] = sharingsOf({ ...bands, edges: [{ direction: 2, cells: Math.floor(many / 4), shares }] });
+      expect(sharing.names[mostOf(sharing, 0, 0)]).toBe("inside");
+    }
+  });
+
   it("of_a_ribbon_are_cut_where_a_wave_comes_to_an_edge", () => {
     const lower = [
       [0.2, 0.2],

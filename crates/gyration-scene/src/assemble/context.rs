@@ -25,8 +25,8 @@ pub(crate) struct SceneContext<'a> {
     pub(super) supports_move: bool,
     /// Whether the undisturbed fluid has a flow.
     pub(super) fluid_flows: bool,
-    /// Whether that flow strains at a time.
-    pub(super) fluid_strains: bool,
+    /// Whether that flow is said to have a gradient, zero or not.
+    pub(super) fluid_has_gradient: bool,
     /// η \[Pa s\] and ρ_f \[kg/m³\], if the file says so without error.
     pub(super) fluid: Option<[f64; 2]>,
     /// G of bodies on themselves \[N m²/kg²\], if the scene has that gravity.
@@ -44,6 +44,7 @@ impl<'a> SceneContext<'a> {
         constants: Option<&'a BTreeMap<String, AnyQuantity>>,
     ) -> Self {
         let supports = document.root.get("support").map(Node::items).unwrap_or_default();
+        let fluid = document.root.get("fluid");
         Self {
             files,
             end: partial.time.as_ref().map(|time| time.end.value()),
@@ -53,23 +54,12 @@ impl<'a> SceneContext<'a> {
                 .iter()
                 .any(|support| support.get("shape").is_none() && support.get("motion").is_some()),
             fluid_flows: partial.fluid.as_ref().is_some_and(flows),
-            fluid_strains: partial.fluid.as_ref().is_some_and(strains),
-            has_fluid: document.root.get("fluid").is_some(),
+            fluid_has_gradient: fluid.is_some_and(|fluid| fluid.get("velocity_gradient").is_some()),
+            has_fluid: fluid.is_some(),
             fluid: partial.fluid.as_ref().map(|fluid| [fluid.viscosity.value(), fluid.density.value()]),
             self_gravity: partial.world.self_gravity.map(|gravity| gravity.constant.value()),
             constants,
         }
-    }
-}
-
-/// Whether a fluid strains far from the bodies.
-fn strains(fluid: &Fluid) -> bool {
-    match &fluid.velocity_gradient {
-        Flow::Steady(rows) => {
-            let entry = |i: usize, j: usize| f64::from(rows[i][j]);
-            (0..3).any(|i| (0..=i).any(|j| entry(i, j) + entry(j, i) != 0.0))
-        }
-        Flow::Changing(_) => true,
     }
 }
 

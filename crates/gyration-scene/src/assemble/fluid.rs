@@ -266,7 +266,7 @@ impl ImmersedBody<'_> {
             return Some(None);
         };
         let error = written.history_error.unwrap_or(HISTORY_ERROR);
-        let strains = context.fluid_strains || matches!(self.kind, BodyKind::Affine(_));
+        let strains = context.fluid_has_gradient || matches!(self.kind, BodyKind::Affine(_));
         let history = if strains { History::of_straining_sphere } else { History::of_sphere };
         match history(*radius, fluid, end, error) {
             Ok(history) => Some(Some(history)),

@@ -165,7 +165,11 @@ fn a_sphere_that_the_fluid_remembers_agrees_with_differences_of_runs() {
     let text = r#"
         time = { end = 5e-3, sample = 5e-3 }
         world = { gravity = [0, 0, -9.81] }
-        fluid = { viscosity = 1, density = 1260, velocity = [0.02, 0, 0] }
+        fluid.viscosity = 1
+        fluid.density = 1260
+        fluid.velocity = [0.02, 0, 0]
+        # It turns; a neighbour strains as well.
+        fluid.velocity_gradient = [[0, -3, 0], [3, 0, 0], [0, 0, 0]]
         [[body]]
         name = "ball"
         shape = { sphere = { radius = "2 mm" } }
@@ -174,7 +178,9 @@ fn a_sphere_that_the_fluid_remembers_agrees_with_differences_of_runs() {
         angular_velocity = [0, 0, 30]
         inclusion = { history = true, history_error = 1e-3 }
     "#;
-    let keys = ["body.ball.density", "body.ball.velocity.0", "world.gravity.2", "fluid.velocity.0"];
+    let flow = ["fluid.velocity.0", "fluid.velocity_gradient.0.1"];
+    let keys = ["body.ball.density", "body.ball.velocity.0", "world.gravity.2"].into_iter().chain(flow);
+    let keys: Vec<&str> = keys.collect();
     let quantities = ["ball.x", "ball.z", "ball.vx", "ball.vz", "ball.P_xy"];
     let worst = disagreement(text, &strings(&["solver.rtol=1e-9", "solver.atol=1e-11"]), &keys, &quantities, 1e-3);
     assert!(worst < 1e-6, "{worst:e}");

@@ -37,6 +37,7 @@ impl<'a> AffineHistory<'a> {
     pub fn of(at: &'a MotionAt<'a>, affine: &'a Affine, gyration: &'a Gyration) -> Option<Self> {
         let MotionAt { model, time, body, motion, .. } = *at;
         let history = body.history()?;
+        debug_assert!(history.strain.is_some(), "the history of a sphere that deforms has that of its strain");
         let (fluid, strain) = (model.fluid.as_deref()?, history.strain.as_ref()?);
         let flow = fluid.flow(time);
         let moving = (&motion.placement.position, &at.velocity(), &gyration.velocity_gradient);

@@ -79,8 +79,8 @@ impl HistoryReaction {
 }
 
 impl History {
-    /// The history of a sphere of a radius \[m\] in a fluid of viscosity \[Pa s\] and density \[kg/m³\] over a span of
-    /// time \[s\], to an error as in [`Exponentials`].
+    /// The history of a rigid sphere of a radius \[m\] in a fluid of viscosity \[Pa s\] and density \[kg/m³\] over a
+    /// span of time \[s\], to an error as in [`Exponentials`].
     ///
     /// # Errors
     /// [`UnresolvedHistory`] for numbers out of all proportion.
@@ -151,7 +151,7 @@ impl History {
         let force = self.added_mass * (changing + l * moving) + pressed - self.drag * behind;
         let torque = self.added_inertia * 0.5 * axial(&spreading) - self.spin_drag * spun_behind;
         let by_spin = -self.spin_drag * spin_weight;
-        let stirred = (fluid, &flow.gradient, time);
+        let stirred = [&flow.gradient, &spreading];
         let of_strain =
             |strain: &StrainHistory| strain.loads(&self.rotation, stirred, gradient, (modes, self.strain_modes()));
         HistoryLoads {

@@ -7,7 +7,6 @@
 //! is what the pressure of the undisturbed flow does, zero at the centre. The sphere's own acceleration meets a_E, and
 //! m_f R² where it grows: they stand on the left of the balance. Source: `docs/fluid-memory.md`.
 
-use super::ambient::Fluid;
 use super::unsteady::Exponentials;
 use crate::affine::AddedInertia;
 use crate::extended::{Extended, ExtendedVec3, Numbers};
@@ -54,11 +53,11 @@ impl StrainHistory {
         Self { drag, displaced, added: AddedInertia { spin: 0.5 * added_inertia, strain, growth: displaced } }
     }
 
-    /// The moment, of a sphere with the gradient L; `modes` are Z_k.
+    /// The moment, of a sphere with the gradient L in a flow of L∞ and its rate; `modes` are Z_k.
     pub(super) fn loads(
         &self,
         rotation: &Exponentials,
-        (fluid, flow, time): (&Fluid, &Mat3, f64),
+        [flow, spreading]: [&Mat3; 2],
         gradient: &Mat3,
         modes: (Numbers, usize),
     ) -> StrainLoads {
@@ -71,11 +70,10 @@ impl StrainHistory {
             each.map(|(mode, weight)| *weight * numbers.behind(&slip[part], from + STRAIN_NUMBERS * mode + 3 * part))
                 .sum()
         };
-        let spreading = fluid.rate(time, &Vec3::zeros()).1;
         let accelerating = spreading + flow * flow;
         let pressed = 0.2 * symmetric(&accelerating) + Mat3::from_diagonal_element(0.1 * accelerating.trace());
         let trailing = self.drag * strain_of(&[behind(0), behind(1)]);
-        let couple = self.displaced * pressed + self.added.strain * deviator(&spreading) - trailing;
+        let couple = self.displaced * pressed + self.added.strain * deviator(spreading) - trailing;
         StrainLoads { couple, by_strain: -self.drag * weights.sum::<f64>(), slip }
     }
 

@@ -3,9 +3,10 @@
 //!
 //!   s = Σ_edge T_i / Σ T_i
 //!
-//! T_i is the kinetic energy of a body. An edge is a quarter of the cells deep, rounded up: a wave of the inside has
-//! about a quarter of its energy at each, one that dies out inwards nearly all of it at one. Waves of one frequency and
-//! one velocity are any that span the same motions, and have the mean of their shares, which does not depend on which.
+//! T_i is the kinetic energy of a body. An edge is a quarter of the cells deep, rounded down, so that fewer than four
+//! have none: a wave that is alike all over has a quarter of its energy at most at each, one that dies out inwards
+//! nearly all of it at one. Waves of one frequency and one velocity are any that span the same motions, and have the
+//! mean of their shares, which does not depend on which.
 
 use super::Branch;
 use super::bloch::{BlochSystem, C64};
@@ -30,13 +31,13 @@ pub struct FreeEdges {
 
 impl FreeEdges {
     /// Of a cell of so many bodies that holds so many cells along each direction, the copies of a body one behind the
-    /// other, the first direction fastest; none along what is periodic or one cell wide.
+    /// other, the first direction fastest; none along what is periodic or fewer than four cells wide.
     pub fn of(repeat: &[u32; 3], periodic: &[bool], bodies: usize) -> Vec<Self> {
         let count: u32 = repeat.iter().product();
-        let ends = |axis: &usize| periodic.get(*axis) == Some(&false) && repeat[*axis] > 1;
+        let ends = |axis: &usize| periodic.get(*axis) == Some(&false) && repeat[*axis] >= PART;
         let along = |direction: usize| {
             let (many, before) = (repeat[direction], repeat[..direction].iter().product::<u32>());
-            let cells = many.div_ceil(PART);
+            let cells = many / PART;
             let side = |body: usize| {
                 let at = body as u32 % count / before % many;
                 if at < cells { Some(0) } else { (at + cells >= many).then_some(1) }
@@ -93,9 +94,9 @@ mod tests {
         let found = FreeEdges::of(&[1, 5, 1], &[true, false], 10);
         let [low, high, none] = [Some(0), Some(1), None];
         assert_eq!(found.len(), 1);
-        assert_eq!((found[0].direction, found[0].cells), (1, 2));
-        assert_eq!(found[0].side, [low, low, none, high, high].repeat(2));
-        let depths = [(1, None), (2, Some(1)), (4, Some(1)), (10, Some(3))];
+        assert_eq!((found[0].direction, found[0].cells), (1, 1));
+        assert_eq!(found[0].side, [low, none, none, none, high].repeat(2));
+        let depths = [(1, None), (3, None), (4, Some(1)), (7, Some(1)), (10, Some(2))];
         for (many, cells) in depths {
             let found = FreeEdges::of(&[1, many, 1], &[true, false], many as usize);
             assert_eq!(found.first().map(|edges| edges.cells), cells, "{many} cells");
@@ -104,10 +105,11 @@ mod tests {
 
     #[test]
     fn a_rod_has_edges_along_both_of_its_free_directions() {
-        let found = FreeEdges::of(&[2, 1, 3], &[false, true, false], 6);
+        let found = FreeEdges::of(&[4, 1, 4], &[false, true, false], 16);
+        let sides = [0, 9, 9, 1].map(|side| (side < 2).then_some(side));
         assert_eq!(found.iter().map(|edges| edges.direction).collect::<Vec<_>>(), [0, 2]);
-        assert_eq!(found[0].side, [Some(0), Some(1)].repeat(3));
-        assert_eq!(found[1].side, [0, 0, 9, 9, 1, 1].map(|side| (side < 2).then_some(side)));
+        assert_eq!(found[0].side, sides.repeat(4));
+        assert_eq!(found[1].side, sides.map(|side| [side; 4]).concat());
     }
 
     #[test]

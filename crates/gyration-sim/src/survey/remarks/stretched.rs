@@ -86,11 +86,12 @@ impl Stretched {
         };
         let more = match self.others {
             0 => String::new(),
-            others => format!("; so are those of {others} more"),
+            1 => " (and another one less)".to_owned(),
+            others => format!(" (and {others} others less)"),
         };
         Some(format!(
-            "the fluid remembers \"{}\" as a sphere, and it is stretched by {} {when}: added mass and history force \
-             are off by about {} % of themselves, what the fluid does without its inertia is not{more}",
+            "the fluid remembers \"{}\" as a sphere, and it is stretched by {} {when}{more}: added mass and history \
+             force are off by about {} % of themselves, what the fluid does without its inertia is not",
             model.name(body),
             significant(stretch, 3),
             significant(100.0 * libm::log(stretch).abs(), 2),
