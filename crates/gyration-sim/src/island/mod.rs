@@ -396,8 +396,8 @@ impl Island {
         Ok(self.integrator.next_size())
     }
 
-    /// Where the next step must end at the latest [s]: the end, the rest that would be long enough, or the first time
-    /// at which a support could be reached.
+    /// Where the next step must end at the latest [s]: the end, the rest that would be long enough, the first time at
+    /// which a support could be reached, or a sample of what loads between two steps would not show.
     pub fn target(&self, plan: &RunPlan) -> f64 {
         let time = self.time();
         let mut end = plan.end;
@@ -408,6 +408,9 @@ impl Island {
         }
         if end <= time {
             end = plan.end;
+        }
+        if remembers_changes(self.model()) {
+            end = end.min(plan.sample_time(plan.next_sample(time)));
         }
         let (ends, lengths) =
             ((&self.step_ends[..], self.system.step_end_gaps()), (self.integrator.next_size(), end - time));
@@ -439,4 +442,11 @@ impl Island {
     pub fn done(&self) -> &[f64] {
         &self.integrator.quadratures()[..self.model().works().len()]
     }
+}
+
+/// Whether a fluid that changes in time remembers a body. The modes of its history that have nearly come to rest weigh
+/// a million: between two steps they are interpolated, the flow is as it is, and loads have the difference.
+fn remembers_changes(model: &Model) -> bool {
+    let changes = model.fluid.as_ref().is_some_and(|fluid| fluid.signals().iter().any(|signal| !signal.is_steady()));
+    changes && model.bodies.iter().any(|body| body.history().is_some())
 }

@@ -172,6 +172,15 @@ impl Signal {
         }
     }
 
+    /// Whether it is the same at all times, as it is written.
+    pub fn is_steady(&self) -> bool {
+        match self {
+            Self::Constant(_) => true,
+            Self::Sum(parts) => parts.iter().all(Self::is_steady),
+            Self::Sine(_) | Self::Square(_) | Self::Ramp { .. } | Self::Table(_) => false,
+        }
+    }
+
     /// The highest frequency of its waves [Hz]; 0 without any.
     pub fn highest_frequency(&self) -> f64 {
         match self {
