@@ -41,6 +41,11 @@ export interface FieldMap extends MapHead {
   values: Float32Array[];
 }
 
+/** The units of a field as they are written. */
+export function unitsOf({ units }: FieldName): string {
+  return units.replace("^3", "\u00b3");
+}
+
 /** A map as the server sends it. */
 export function mapIn(message: ArrayBuffer): FieldMap {
   const { announced, payload } = unpacked<MapHead>(message);
@@ -53,7 +58,7 @@ export function mapIn(message: ArrayBuffer): FieldMap {
 export function rangeOf(values: Float32Array): [number, number] | null {
   let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
   for (const value of values) {
-    if (Number.isNaN(value)) continue;
+    if (!Number.isFinite(value)) continue;
     if (value < low) low = value;
     if (value > high) high = value;
   }

@@ -1,6 +1,6 @@
 // The panel of the fields of many bodies: which is shown in the picture, and the width with which bodies are seen.
 
-import { FIELD_NAMES, type FieldMap, type Fields, rangeOf } from "../data/fields";
+import { FIELD_NAMES, type FieldMap, type Fields, rangeOf, unitsOf } from "../data/fields";
 import { plain, scaleFor, withUnit } from "../math/format";
 import { h } from "./dom";
 
@@ -37,8 +37,8 @@ export class FieldsPanel {
       h(
         "p",
         { class: "quiet" },
-        "Bodies are seen from each point with a Gaussian of the standard deviation b; at first it is two mean distances ",
-        "of nearest neighbours. The map lies in the middle of the bodies, over their two longest sides. Colours reach ",
+        "Bodies are seen from each point with a Gaussian of the standard deviation b; at first it is two mean ",
+        "distances of nearest neighbours. The map lies in the middle of the bodies, over their two longest sides. Colours reach ",
         "as far as the samples that have been looked at.",
       ),
     );
@@ -109,14 +109,18 @@ function asSentence(words: string): string {
 }
 
 /** What a map shows, in a line. */
-function inWords(map: FieldMap, key: string): string {
+export function inWords(map: FieldMap, key: string): string {
   const index = map.fields.findIndex((field) => field.key === key);
   const field = map.fields[index];
   if (!field) return "";
   const at = `At t = ${withUnit(map.time, "s")}, seen with b = ${withUnit(map.width, "m", 3)}`;
   const range = rangeOf(map.values[index]);
-  if (!range) return `${at}, the ${field.name} is zero everywhere: there is no map.`;
-  const [factor, units] = scaleFor(Math.max(...range.map(Math.abs)), field.units.replace("^3", "\u00b3"));
+  if (!range) {
+    const isZero = map.values[index].some((value) => Number.isFinite(value));
+    const what = isZero ? "is zero at all points" : "has no value at any point";
+    return `${at}, the ${field.name} ${what}: there is no map.`;
+  }
+  const [factor, units] = scaleFor(Math.max(...range.map(Math.abs)), unitsOf(field));
   const [low, high] = range.map((value) => plain(value / factor, 3));
   return `${at}, the ${field.name} on the map is ${low} to ${high} ${units}.`;
 }

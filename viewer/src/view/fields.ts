@@ -16,7 +16,7 @@ import {
   Vector2,
   Vector3,
 } from "three";
-import type { FieldMap, Fields } from "../data/fields";
+import { type FieldMap, type Fields, unitsOf } from "../data/fields";
 import type { Vec3 } from "../data/header";
 import { between, type Rgb, TWO_SIDED, VIRIDIS } from "../math/colors";
 import type { Scale } from "./coloring";
@@ -72,10 +72,11 @@ export function texelsOf(
   const densest = density.reduce((most, each) => Math.max(most, each), 0);
   const colors = colorsAlong(range);
   values.forEach((value, k) => {
-    const known = Number.isNaN(value) ? 0 : value;
+    const isNumber = Number.isFinite(value);
+    const known = isNumber ? value : 0;
     const color = between(colors, (known - low) / (high - low));
     const clear = Math.min(Math.abs(known) / most, densest > 0 ? density[k] / densest : 1);
-    const shown = Number.isNaN(value) ? 0 : Math.min(1, clear / FAINT);
+    const shown = isNumber ? Math.min(1, clear / FAINT) : 0;
     texels.set(
       [...color, shown].map((part) => Math.round(255 * part)),
       4 * k,
@@ -141,8 +142,8 @@ export class FieldLayer {
       map.fields.findIndex(({ key }) => key === fields.key),
     );
     const [low, high] = evened(known);
-    const { name, units } = map.fields[index];
-    this.scale = { title: titleOf(name), units: units.replace("^3", "³"), low, high };
+    const field = map.fields[index];
+    this.scale = { title: titleOf(field.name), units: unitsOf(field), low, high };
     const { drawn } = this;
     if (drawn?.map === map && drawn.key === fields.key && drawn.low === low && drawn.high === high) return;
     this.drawn = { map, key: fields.key, low, high };

@@ -1,8 +1,9 @@
 // Fields of many bodies: maps as they come, what is asked for, and colours.
 
 import { describe, expect, it } from "vitest";
-import { type FieldMap, Fields, mapIn, rangeOf } from "../../src/data/fields";
+import { type FieldMap, Fields, mapIn, rangeOf, unitsOf } from "../../src/data/fields";
 import { TWO_SIDED, VIRIDIS } from "../../src/math/colors";
+import { inWords } from "../../src/ui/fields";
 import { colorsAlong, evened, FieldLayer, gradientOf, texelsOf } from "../../src/view/fields";
 
 const HEAD = {
@@ -54,6 +55,18 @@ describe("a map", () => {
       [3, Number.NaN],
     ]);
     expect([map.usual, map.across]).toEqual([0.2, [3, 0, 0]]);
+  });
+});
+
+describe("a map in words", () => {
+  it("has_a_range_or_is_zero_or_has_no_value", () => {
+    const none = Number.NaN;
+    const infinite = Number.POSITIVE_INFINITY;
+    const words = (density: number[]) => inWords(mapOf(density), "density");
+    expect(words([1, 3])).toMatch(/the density on the map is 1 to 3 kg\/m³\.$/);
+    expect(words([0, none])).toMatch(/the density is zero at all points: there is no map\.$/);
+    expect(words([none, infinite])).toMatch(/the density has no value at any point: there is no map\.$/);
+    expect(HEAD.fields.map(unitsOf)).toEqual(["kg/m³", "m/s"]);
   });
 });
 
@@ -126,6 +139,7 @@ describe("colours of a field", () => {
   it("fade_towards_zero_and_are_none_where_there_is_no_number", () => {
     const texels = texelsOf(Float32Array.of(0.15, Number.NaN, 1, 0), [0, 1]);
     expect([3, 7, 11, 15].map((at) => texels[at])).toEqual([128, 0, 255, 0]);
+    expect(texelsOf(Float32Array.of(Number.POSITIVE_INFINITY), [0, 1])[3]).toBe(0);
     const speeds = texelsOf(Float32Array.of(1, 1, 1), [0, 1], Float32Array.of(4, 0.6, 0));
     expect([speeds[3], speeds[7], speeds[11]]).toEqual([255, 128, 0]);
     expect(gradientOf([-1, 1])).toMatch(
@@ -133,6 +147,7 @@ describe("colours of a field", () => {
     );
     expect(Array.from(texels.subarray(8, 11))).toEqual([253, 231, 37]);
     expect(rangeOf(Float32Array.of(Number.NaN, 2))).toEqual([2, 2]);
+    expect(rangeOf(Float32Array.of(Number.POSITIVE_INFINITY, 2))).toEqual([2, 2]);
     expect(rangeOf(Float32Array.of(0, 0))).toBeNull();
   });
 
