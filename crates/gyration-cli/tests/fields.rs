@@ -63,6 +63,8 @@ fn fields_are_told_in_words_in_json_and_in_files() {
         assert!(told.count() > panels, "{grid}");
     }
     sandbox.refused(2, &["fields", "balls.gyr", "--width", "0.1", "--at", "0,0,0", "--plot", "seen.svg"]);
+    let said = sandbox.refused(2, &["fields", "balls.gyr", "--width", "1e308"]);
+    assert!(said.stderr.contains("out of proportion"), "{}", said.stderr);
 }
 
 #[test]

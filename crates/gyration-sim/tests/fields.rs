@@ -4,15 +4,20 @@ use crate::runs::provenance;
 use gyration::tensor::Vec3;
 use gyration_record::Recording;
 use gyration_scene::Scene;
-use gyration_sim::{FieldPoints, FieldSurvey, Job, NoFields, Unwatched, open};
+use gyration_sim::{FieldMaps, FieldPoints, FieldSurvey, Job, NoFields, Unwatched, open};
 use std::path::Path;
+
+/// The recording of a scene that is run.
+fn recorded(folder: &tempfile::TempDir, scene: &Scene) -> Recording {
+    let path = folder.path().join("run.gyr");
+    Job::of(scene, &provenance()).record(&path, &mut Unwatched).unwrap();
+    Recording::open(&path).unwrap()
+}
 
 /// The fields of a scene that is run.
 fn fields(scene: &Scene, width: f64, points: &FieldPoints) -> Result<FieldSurvey, NoFields> {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.gyr");
-    Job::of(scene, &provenance()).record(&path, &mut Unwatched).unwrap();
-    FieldSurvey::of(&Recording::open(&path).unwrap(), width, points, 1)
+    FieldSurvey::of(&recorded(&folder, scene), width, points, 1)
 }
 
 fn scene(text: &str) -> Scene {
@@ -128,6 +133,37 @@ fn what_cannot_be_averaged_is_refused() {
     let at = FieldPoints::At(vec![Vec3::zeros()]);
     assert!(matches!(fields(&scene(&text), 0.1, &at), Err(NoFields::NoPairs)));
     assert!(fields(&scene(&with_pairs(&text)), 0.1, &at).is_ok());
-    assert!(matches!(fields(&scene(CUBES), 0.0, &at), Err(NoFields::Width(_))));
+    assert!(matches!(fields(&scene(CUBES), f64::INFINITY, &at), Err(NoFields::Width(_))));
+    for width in [1e-200, 1e308] {
+        assert!(matches!(fields(&scene(CUBES), width, &at), Err(NoFields::Extent { .. })), "{width}");
+    }
     assert!(matches!(fields(&scene(CUBES), 0.1, &FieldPoints::Grid([1, 0, 1])), Err(NoFields::EmptyGrid)));
+}
+
+/// A ball at each point of a cubic lattice of 0.5 m.
+const CUBIC: &str = r#"
+world = { gravity = [0, 0, 0] }
+time = { end = 0.1, sample = 0.1 }
+lattice = { cell = [[0.5, 0, 0], [0, 0.5, 0], [0, 0, 0.5]] }
+[[body]]
+name = "ball"
+shape = { sphere = { radius = 0.1 } }
+mass = 2
+"#;
+
+#[test]
+fn a_ring_is_seen_with_widths_of_few_periods_and_is_uniform_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let recording = recorded(&folder, &scene(CUBIC));
+    let at = FieldPoints::At(vec![Vec3::zeros(), Vec3::new(0.25, 0.25, 0.25)]);
+    let of = |width| FieldSurvey::of(&recording, width, &at, 1);
+    let mut maps = FieldMaps::of(&recording).unwrap();
+    for width in [1.63, 1e9] {
+        assert!(matches!(of(width), Err(NoFields::Wide { most: 1.62, .. })), "{width}");
+        assert!(matches!(maps.map(0, width), Err(NoFields::Wide { most: 1.62, .. })), "{width}");
+    }
+    // 2 kg in each cell, wherever one looks: the first wave is left with e^(−2π² 1.62²/0.5²).
+    for seen in &of(1.62).unwrap().fields[0] {
+        assert!((seen.density / 16.0 - 1.0).abs() < 1e-12, "{}", seen.density);
+    }
 }

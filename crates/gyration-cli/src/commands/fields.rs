@@ -48,7 +48,9 @@ fn refused(recording: &Recording, error: NoFields) -> CliError {
     let fix = match &error {
         NoFields::Replay(_) => None,
         NoFields::NoPairs => error.in_scene(),
-        NoFields::Width(_) => Some("write --width with a length in metres, about the distance of bodies"),
+        NoFields::Width(_) | NoFields::Extent { .. } | NoFields::Wide { .. } => {
+            Some("write --width with a length in metres, about the distance of bodies")
+        }
         NoFields::EmptyGrid => Some("write --grid with three counts, as 64,64,1"),
     };
     match (error, fix) {

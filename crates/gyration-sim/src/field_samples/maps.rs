@@ -2,7 +2,8 @@
 
 use super::layer::FieldLayer;
 use super::source::FieldSource;
-use super::{FieldGrid, NoFields, weight_of};
+use super::widths::Widths;
+use super::{FieldGrid, NoFields};
 use crate::fields::{FIELD_SCALARS, LocalFields};
 use crate::replay::ReplayError;
 use gyration::tensor::Vec3;
@@ -25,6 +26,7 @@ pub struct FieldMaps {
     source: FieldSource,
     /// The corners of the box of all centres \[m\].
     corners: [Vec3; 2],
+    widths: Widths,
     usual_width: f64,
 }
 
@@ -62,12 +64,13 @@ impl FieldMaps {
             }
         }
         let sizes = source.replay.model().bodies.iter().map(|body| body.size).fold(0.0, f64::max);
+        let widths = Widths::of(&source.replay, &corners);
         let usual_width = mean_distance(&first).map_or(sizes, |distance| USUAL_DISTANCES * distance);
-        Ok(Self { source, corners, usual_width })
+        Ok(Self { source, corners, widths, usual_width: usual_width.min(widths.widest()) })
     }
 
     /// Twice the mean distance of nearest neighbours in the first sample, images aside; the size of the largest body
-    /// where there are none \[m\].
+    /// where there are none; in a ring no more than can be had \[m\].
     pub fn usual_width(&self) -> f64 {
         self.usual_width
     }
@@ -78,8 +81,8 @@ impl FieldMaps {
     /// # Errors
     /// [`NoFields`].
     pub fn map(&mut self, row: usize, width: f64) -> Result<FieldMap, NoFields> {
-        let weight = weight_of(width)?;
         let sample = self.source.sample(row)?;
+        let weight = self.widths.weight(width)?;
         let grid = FieldGrid::over(self.corners.into_iter(), width, |sides| counts(sides, width));
         let along = FieldLayer::of(&grid).along;
         let (points, _) = grid.with_points();

@@ -4,16 +4,19 @@ mod image;
 mod layer;
 mod maps;
 mod source;
+mod widths;
 
 pub use layer::FieldLayer;
 pub use maps::{FieldMap, FieldMaps};
 
-use crate::fields::{LocalFields, Third, Weight};
+use crate::fields::{LocalFields, Third};
+use crate::format::significant;
 use crate::replay::ReplayError;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_record::Recording;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use source::FieldSource;
+use widths::Widths;
 
 /// A grid reaches beyond the outermost centres by so many widths.
 const MARGIN: f64 = 2.0;
@@ -66,9 +69,33 @@ pub enum NoFields {
     /// Bodies meet, and what they do to one another was not recorded.
     #[error("bodies meet in the scene, and what they do to one another was not recorded")]
     NoPairs,
-    /// The width is not above zero.
-    #[error("the width {0} m is not above zero")]
+    /// The width is no length.
+    #[error("the width {0} m is not a finite length above zero")]
     Width(f64),
+    /// The width is too far from the extent of the bodies for numbers to hold both.
+    #[error(
+        "the width {} m is out of proportion to the extent of the bodies: write one between {} and {} m",
+        significant(*width, 3), significant(*least, 3), significant(*most, 3)
+    )]
+    Extent {
+        /// The width \[m\].
+        width: f64,
+        /// The millionth of the extent \[m\].
+        least: f64,
+        /// The millionfold \[m\].
+        most: f64,
+    },
+    /// The bodies follow one another without end, and too many of them are seen with the width.
+    #[error(
+        "with the width {} m each point sees more than {} bodies of a ring: write one of {} m or less",
+        significant(*width, 3), widths::MOST_SEEN, significant(*most, 3)
+    )]
+    Wide {
+        /// The width \[m\].
+        width: f64,
+        /// The largest, to three digits \[m\].
+        most: f64,
+    },
     /// A grid without points.
     #[error("a grid has at least one point along each axis")]
     EmptyGrid,
@@ -88,12 +115,14 @@ impl FieldSurvey {
     /// # Errors
     /// [`NoFields`].
     pub fn of(recording: &Recording, width: f64, points: &FieldPoints, every: usize) -> Result<Self, NoFields> {
-        let weight = weight_of(width)?;
+        // Before what takes long.
+        widths::length(width)?;
         let mut source = FieldSource::open(recording)?;
         let mut rows: Vec<usize> = (0..recording.rows()).step_by(every.max(1)).collect();
         rows.extend(recording.rows().checked_sub(1).filter(|last| last % every.max(1) > 0));
         let samples = rows.into_iter().map(|row| source.sample(row)).collect::<Result<Vec<_>, _>>()?;
         let places = || samples.iter().flat_map(|sample| sample.grains.iter().map(|grain| grain.place));
+        let weight = Widths::of(&source.replay, &corners_of(places())).weight(width)?;
         let (points, grid) = match points {
             FieldPoints::At(points) => (points.clone(), None),
             FieldPoints::Grid(counts) if counts.contains(&0) => return Err(NoFields::EmptyGrid),
@@ -106,9 +135,10 @@ impl FieldSurvey {
     }
 }
 
-/// The weight of a width, if it is one.
-fn weight_of(width: f64) -> Result<Weight, NoFields> {
-    if width > 0.0 && width.is_finite() { Ok(Weight::new(width)) } else { Err(NoFields::Width(width)) }
+/// The corners of the box that places fill; the origin without any.
+fn corners_of(places: impl Iterator<Item = Vec3>) -> [Vec3; 2] {
+    let boxes = places.map(|place| [place; 2]);
+    boxes.reduce(|[low, high], [place, _]| [low.inf(&place), high.sup(&place)]).unwrap_or([Vec3::zeros(); 2])
 }
 
 /// Points along the sides of a box, 16 along the longest.
@@ -120,11 +150,7 @@ fn usual_counts(sides: &Vec3) -> [usize; 3] {
 impl FieldGrid {
     /// Over a box, which the places and a margin fill.
     fn over(places: impl Iterator<Item = Vec3>, width: f64, counts: impl Fn(&Vec3) -> [usize; 3]) -> Self {
-        let mut bounds: Option<[Vec3; 2]> = None;
-        for place in places {
-            bounds = Some(bounds.map_or([place; 2], |[low, high]| [low.inf(&place), high.sup(&place)]));
-        }
-        let [low, high] = bounds.unwrap_or([Vec3::zeros(); 2]);
+        let [low, high] = corners_of(places);
         let (low, high) = (low - Vec3::repeat(MARGIN * width), high + Vec3::repeat(MARGIN * width));
         let counts = counts(&(high - low));
         let spacing =

@@ -70,6 +70,11 @@ impl Replay {
         &self.model
     }
 
+    /// The vectors by which the bodies follow one another without end; those of a lattice span a cell.
+    pub(crate) fn periods(&self) -> &Lattice {
+        &self.periods
+    }
+
     /// The state at a sample.
     ///
     /// # Errors
