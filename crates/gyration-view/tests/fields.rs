@@ -81,9 +81,16 @@ fn a_map_has_the_means_of_the_bodies_at_its_points() {
     let row = counts[0] * (counts[1] / 2);
     assert!(fields[1][row] > fields[1][row + counts[0] - 1], "{:?}", fields[1]);
     assert!((map(&served, "row=2").0["time"].as_f64().unwrap() - 0.02).abs() < 1e-12);
-    for (query, words) in [("row=0&width=-1", "above zero"), ("row=3", "3")] {
-        let (status, told) = refused(&served, query);
-        assert!(status == 422 && told.contains(words), "{status} {told}");
+    for (query, status, words) in [
+        ("row=0&width=-1", 422, "the width -1 m is not a finite length above zero"),
+        ("row=0&width=inf", 422, "the width inf m is not a finite length above zero"),
+        ("row=0&width=1e308", 422, "out of proportion"),
+        ("row=0&width=1e-200", 422, "out of proportion"),
+        ("row=3", 416, "3"),
+        ("row=18446744073709551615", 416, "18446744073709551615"),
+    ] {
+        let (found, told) = refused(&served, query);
+        assert!(found == status && told.contains(words), "{query}: {found} {told}");
     }
 }
 
@@ -95,6 +102,13 @@ fn why_there_is_no_map_is_told_with_what_to_do() {
     assert!(status == 422 && told.contains("was not recorded: write record = { pairs = true }"), "{status} {told}");
     let recorded = meeting.replace("time =", "record = { pairs = true }\ntime =");
     assert_eq!(map(&shown(&folder, "recorded", &recorded), "row=1").1.len(), 5);
+    let ring = BALLS.replace("time =", "lattice = { cell = [[0.5, 0, 0]] }\ntime =");
+    let (status, told) = refused(&shown(&folder, "ring", &ring), "row=0&width=1e9");
+    assert!(status == 422 && told.contains("bodies of a ring: write one of 2770 m or less"), "{status} {told}");
+    let lost = shown(&folder, "lost", BALLS);
+    std::fs::remove_dir_all(folder.path().join("lost.gyr")).unwrap();
+    let (status, told) = refused(&lost, "row=0");
+    assert!(status == 500 && told.contains("lost.gyr"), "{status} {told}");
     let (status, told) = refused(&Served::new(running(&folder, FALL)), "row=0");
     assert!(status == 404 && told.contains("run the scene"), "{status} {told}");
 }

@@ -48,7 +48,7 @@ impl Window {
         if !self.rows.contains(&row) {
             let rows = self.recording.rows();
             if row >= rows {
-                return Err(RecordError::NoSuchRows { from: row, to: row + 1, rows }.into());
+                return Err(RecordError::NoSuchRows { from: row, to: row.saturating_add(1), rows }.into());
             }
             let step = self.recording.chunk_rows();
             let from = row - row % step;

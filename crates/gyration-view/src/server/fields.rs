@@ -5,6 +5,7 @@
 //! ```
 
 use super::shown::{BadRequest, Shown, apart, refused};
+use crate::error::ViewError;
 use crate::fields::message;
 use crate::stored::Stored;
 use axum::Router;
@@ -12,6 +13,7 @@ use axum::extract::{Query, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
+use gyration_sim::replay::ReplayError;
 use gyration_sim::{FieldMaps, NoFields};
 use serde::Deserialize;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -42,7 +44,6 @@ impl Medium {
         };
         // A thread that died with it locked left it whole. One map after the other: each takes all the time there is.
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let told = |error: NoFields| refused(in_words(&error));
         let (_, maps) = match known.take_if(|(of, _)| Arc::ptr_eq(of, &stored)) {
             Some(same) => known.insert(same),
             None => known.insert((Arc::clone(&stored), FieldMaps::of(stored.recording()).map_err(told)?)),
@@ -52,10 +53,13 @@ impl Medium {
 }
 
 /// What is wrong, and what to do.
-fn in_words(error: &NoFields) -> String {
-    match error.in_scene() {
-        Some(help) => format!("{error}: {help}"),
-        None => error.to_string(),
+fn told(error: NoFields) -> BadRequest {
+    let help = error.in_scene();
+    match (error, help) {
+        (NoFields::Replay(ReplayError::Record(error)), _) => ViewError::Record(error).into(),
+        (NoFields::Replay(error), _) => ViewError::Replay(error).into(),
+        (error, Some(help)) => refused(format!("{error}: {help}")),
+        (error, None) => refused(error.to_string()),
     }
 }
 
