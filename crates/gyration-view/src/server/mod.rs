@@ -34,10 +34,10 @@ use axum::routing::get;
 pub use connections::Limits;
 use serde::Deserialize;
 use serde_json::json;
-use shown::{BadRequest, Shown, apart};
+use shown::{BadRequest, Shown, apart, opened_anew};
 use std::future::Future;
 use std::net::{Ipv4Addr, TcpListener};
-use std::sync::{Arc, PoisonError, RwLock};
+use std::sync::{Arc, RwLock};
 
 /// What is shown.
 pub enum PageSource {
@@ -133,13 +133,7 @@ async fn index() -> Response {
 async fn header_of(State(shown): State<Arc<Shown>>) -> Result<Response, BadRequest> {
     let json = match &*shown {
         Shown::Live(_) => json!({ "protocol": gyration_page::header::PROTOCOL, "mode": "live" }),
-        Shown::Recording(stored) => {
-            let path = stored.read().unwrap_or_else(PoisonError::into_inner).path().to_path_buf();
-            let fresh = Stored::open(&path)?;
-            let json = fresh.header().to_json();
-            *stored.write().unwrap_or_else(PoisonError::into_inner) = Arc::new(fresh);
-            json
-        }
+        Shown::Recording(known) => opened_anew(known)?.header().to_json(),
     };
     Ok(([(header::CONTENT_TYPE, "application/json")], json.to_string()).into_response())
 }

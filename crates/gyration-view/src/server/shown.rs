@@ -40,6 +40,17 @@ impl Shown {
     }
 }
 
+/// A recording as it is on disk now: the one that is known where nothing has come, so that what was made of it holds.
+pub(super) fn opened_anew(known: &RwLock<Arc<Stored>>) -> Result<Arc<Stored>, ViewError> {
+    let path = known.read().unwrap_or_else(PoisonError::into_inner).path().to_path_buf();
+    let fresh = Stored::open(&path)?;
+    let mut known = known.write().unwrap_or_else(PoisonError::into_inner);
+    if known.header() != fresh.header() {
+        *known = Arc::new(fresh);
+    }
+    Ok(Arc::clone(&known))
+}
+
 /// A request that cannot be met, in words.
 #[derive(Debug)]
 pub(super) struct BadRequest(pub(super) StatusCode, pub(super) String);
@@ -72,4 +83,37 @@ pub(super) async fn apart<T: Send + 'static>(
 ) -> Result<T, BadRequest> {
     let done = tokio::task::spawn_blocking(work).await;
     done.map_err(|error| BadRequest(StatusCode::INTERNAL_SERVER_ERROR, error.to_string()))?
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gyration_sim::{Job, Provenance, Unwatched};
+    use std::path::Path;
+
+    /// Records a fall of a duration \[s\] at the path.
+    fn record(path: &Path, end: f64) {
+        let text = format!(
+            "time = {{ end = {end}, sample = 0.01 }}\n\
+             [[body]]\nname = \"ball\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = 1\n"
+        );
+        let scene = Scene::parse("fall.toml", &text, Path::new(""), &[]).unwrap();
+        let provenance = Provenance { version: "0.0.0".into(), commit: None };
+        Job::of(&scene, &provenance).record(path, &mut Unwatched).unwrap();
+    }
+
+    #[test]
+    fn a_recording_to_which_nothing_has_come_stays_the_same() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("fall.gyr");
+        record(&path, 0.02);
+        let first = Arc::new(Stored::open(&path).unwrap());
+        let known = RwLock::new(Arc::clone(&first));
+        assert!(Arc::ptr_eq(&opened_anew(&known).unwrap(), &first));
+        std::fs::remove_dir_all(&path).unwrap();
+        record(&path, 0.03);
+        let second = opened_anew(&known).unwrap();
+        assert_eq!([first.rows(), second.rows()], [3, 4]);
+        assert!(Arc::ptr_eq(&known.read().unwrap(), &second));
+    }
 }
