@@ -19,21 +19,27 @@ pub struct FieldLayer {
 impl FieldLayer {
     /// Of a grid.
     pub fn of(grid: &FieldGrid) -> Self {
-        let through = (0..3).rev().min_by_key(|axis| grid.counts[*axis]).unwrap_or(2);
-        let mut along = match through {
-            0 => [1, 2],
-            1 => [0, 2],
-            _ => [0, 1],
-        };
         let counts = grid.counts;
-        if counts[along[0]] == 1 {
-            along.swap(0, 1);
-        }
+        let (through, along) = Self::axes(&counts);
         let strides = [1, counts[0], counts[0] * counts[1]];
         let index = counts[through] / 2;
         let point = |i: usize, j: usize| i * strides[along[0]] + j * strides[along[1]] + index * strides[through];
         let points = (0..counts[along[1]]).flat_map(|j| (0..counts[along[0]]).map(move |i| (i, j)));
         Self { through, along, index, points: points.map(|(i, j)| point(i, j)).collect() }
+    }
+
+    /// The axis that leads out of the layer of a grid with so many points along each, and those of the layer.
+    pub(super) fn axes(counts: &[usize; 3]) -> (usize, [usize; 2]) {
+        let through = (0..3).rev().min_by_key(|axis| counts[*axis]).unwrap_or(2);
+        let mut along = match through {
+            0 => [1, 2],
+            1 => [0, 2],
+            _ => [0, 1],
+        };
+        if counts[along[0]] == 1 {
+            along.swap(0, 1);
+        }
+        (through, along)
     }
 }
 
@@ -52,6 +58,7 @@ mod tests {
         for (counts, along) in [([5, 1, 1], [0, 1]), ([1, 5, 1], [1, 0]), ([1, 1, 5], [2, 0])] {
             let layer = FieldLayer::of(&FieldGrid { counts, ..grid });
             assert_eq!((layer.along, layer.points.len()), (along, 5), "{counts:?}");
+            assert_eq!(FieldLayer::axes(&counts), (layer.through, along), "{counts:?}");
         }
     }
 }

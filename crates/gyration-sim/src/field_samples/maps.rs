@@ -84,7 +84,7 @@ impl FieldMaps {
         let sample = self.source.sample(row)?;
         let weight = self.widths.weight(width)?;
         let grid = FieldGrid::over(self.corners.into_iter(), width, |sides| counts(sides, width));
-        let along = FieldLayer::of(&grid).along;
+        let (_, along) = FieldLayer::axes(&grid.counts);
         let (points, _) = grid.with_points();
         let fields: Vec<LocalFields> = points.iter().map(|at| sample.fields(at, &weight)).collect();
         let values = FIELD_SCALARS.iter().map(|scalar| scalar.values(&fields)).collect();
