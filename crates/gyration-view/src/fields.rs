@@ -1,7 +1,8 @@
 //! Fields of a recording for the page: a map of one sample.
 //!
 //! ```text
-//! binary message, head { time, width, usual, counts: [across, up], origin, across, up, fields: [{ key, name, units }] },
+//! binary message
+//! head: { time, width, usual, counts: [across, up], origin, across, up, fields: [{ key, name, units }] }
 //! payload: f32[across · up] of each field, across fastest
 //! ```
 //!
