@@ -162,6 +162,10 @@ fn a_ring_is_seen_with_widths_of_few_periods_and_is_uniform_there() {
         assert!(matches!(of(width), Err(NoFields::Wide { most: 1.62, .. })), "{width}");
         assert!(matches!(maps.map(0, width), Err(NoFields::Wide { most: 1.62, .. })), "{width}");
     }
+    // Far off it is as near by.
+    let far = FieldPoints::At(vec![Vec3::zeros(), Vec3::new(5e9, 0.0, -5e9)]);
+    let found = FieldSurvey::of(&recording, 0.125, &far, 1).unwrap();
+    assert_eq!(found.fields[0][0].density, found.fields[0][1].density);
     // 2 kg in each cell, wherever one looks: the first wave is left with e^(−2π² 1.62²/0.5²).
     for seen in &of(1.62).unwrap().fields[0] {
         assert!((seen.density / 16.0 - 1.0).abs() < 1e-12, "{}", seen.density);

@@ -122,16 +122,17 @@ impl<'a> Images<'a> {
 
     /// Hands over where a point is as seen from each image of a place within a distance of it.
     fn each(&self, at: &Vec3, place: &Vec3, within: f64, mut each: impl FnMut(&Vec3)) {
-        let mut bounds = [(0, 0); 3];
+        // Far from the bodies there are more periods than i32 counts.
+        let mut bounds = [(0_i64, 0_i64); 3];
         for (bound, reciprocal) in bounds.iter_mut().zip(&self.reciprocal) {
             let (middle, wide) = (reciprocal.dot(&(at - place)) / TAU, within * reciprocal.norm() / TAU);
-            *bound = ((middle - wide).ceil() as i32, (middle + wide).floor() as i32);
+            *bound = ((middle - wide).ceil() as i64, (middle + wide).floor() as i64);
         }
         let whole = |axis: usize| bounds[axis].0..=bounds[axis].1;
         for z in whole(2) {
             for y in whole(1) {
                 for x in whole(0) {
-                    let image: Vec3 = self.vectors.iter().zip([x, y, z]).map(|(vector, n)| f64::from(n) * vector).sum();
+                    let image: Vec3 = self.vectors.iter().zip([x, y, z]).map(|(vector, n)| n as f64 * vector).sum();
                     let from = at - place - image;
                     if from.norm() <= within {
                         each(&from);
