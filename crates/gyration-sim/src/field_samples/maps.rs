@@ -2,7 +2,7 @@
 
 use super::layer::FieldLayer;
 use super::source::FieldSource;
-use super::widths::Widths;
+use super::widths::{MOST_ON_PAGE, Widths};
 use super::{FieldGrid, NoFields};
 use crate::fields::{FIELD_SCALARS, LocalFields};
 use crate::replay::ReplayError;
@@ -64,7 +64,7 @@ impl FieldMaps {
             }
         }
         let sizes = source.replay.model().bodies.iter().map(|body| body.size).fold(0.0, f64::max);
-        let widths = Widths::of(&source.replay, &corners);
+        let widths = Widths::of(&source.replay, &corners, MOST_ON_PAGE);
         let usual_width = mean_distance(&first).map_or(sizes, |distance| USUAL_DISTANCES * distance);
         Ok(Self { source, corners, widths, usual_width: usual_width.min(widths.widest()) })
     }

@@ -16,7 +16,7 @@ use gyration::tensor::{Mat3, Vec3};
 use gyration_record::Recording;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use source::FieldSource;
-use widths::Widths;
+use widths::{MOST_SEEN, Widths};
 
 /// A grid reaches beyond the outermost centres by so many widths.
 const MARGIN: f64 = 2.0;
@@ -88,13 +88,15 @@ pub enum NoFields {
     /// The bodies follow one another without end, and too many of them are seen with the width.
     #[error(
         "with the width {} m each point sees more than {} bodies of a ring: write one of {} m or less",
-        significant(*width, 3), widths::MOST_SEEN, significant(*most, 3)
+        significant(*width, 3), seen, significant(*most, 3)
     )]
     Wide {
         /// The width \[m\].
         width: f64,
         /// The largest, to three digits \[m\].
         most: f64,
+        /// How many a point may see.
+        seen: f64,
     },
     /// A grid without points.
     #[error("a grid has at least one point along each axis")]
@@ -122,7 +124,7 @@ impl FieldSurvey {
         rows.extend(recording.rows().checked_sub(1).filter(|last| last % every.max(1) > 0));
         let samples = rows.into_iter().map(|row| source.sample(row)).collect::<Result<Vec<_>, _>>()?;
         let places = || samples.iter().flat_map(|sample| sample.grains.iter().map(|grain| grain.place));
-        let weight = Widths::of(&source.replay, &corners_of(places())).weight(width)?;
+        let weight = Widths::of(&source.replay, &corners_of(places()), MOST_SEEN).weight(width)?;
         let (points, grid) = match points {
             FieldPoints::At(points) => (points.clone(), None),
             FieldPoints::Grid(counts) if counts.contains(&0) => return Err(NoFields::EmptyGrid),

@@ -10,8 +10,10 @@ use std::f64::consts::PI;
 /// A width and the extent of the bodies are no farther apart: below, ten digits of r/b are left of the places; above,
 /// all bodies are in one place to twelve.
 const PROPORTION: f64 = 1e6;
-/// A point sees no more bodies that follow one another without end.
-pub(super) const MOST_SEEN: f64 = 2e5;
+/// A point sees no more bodies that follow one another without end, each some 0.1 µs, where a program waits for it.
+pub(super) const MOST_SEEN: f64 = 2e7;
+/// The same where a page does.
+pub(super) const MOST_ON_PAGE: f64 = 2e5;
 
 /// The widths that there are.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,17 +23,19 @@ pub(super) struct Widths {
     extent: f64,
     /// The largest with which a point does not see too many; no limit without periods \[m\].
     in_ring: f64,
+    /// How many are too many.
+    most_seen: f64,
 }
 
 impl Widths {
-    /// Of a recording and the corners of the box of its centres.
-    pub fn of(replay: &Replay, [low, high]: &[Vec3; 2]) -> Self {
+    /// Of a recording and the corners of the box of its centres, where a point may see so many bodies.
+    pub fn of(replay: &Replay, [low, high]: &[Vec3; 2], most_seen: f64) -> Self {
         let bodies = &replay.model().bodies;
         let periods = replay.periods().vectors().iter().map(Vec3::norm).fold(0.0, f64::max);
         let sizes = bodies.iter().map(|body| body.size).fold(0.0, f64::max);
         let extent = (high - low).norm() + sizes + periods;
         let extent = if extent > 0.0 { extent } else { 1.0 };
-        Self { extent, in_ring: widest_in_ring(replay.periods(), bodies.len()) }
+        Self { extent, in_ring: widest_in_ring(replay.periods(), most_seen / bodies.len().max(1) as f64), most_seen }
     }
 
     /// The largest \[m\].
@@ -47,7 +51,7 @@ impl Widths {
         let [least, most] = [self.extent / PROPORTION, self.extent * PROPORTION];
         let width = length(width)?;
         if width > self.in_ring {
-            return Err(NoFields::Wide { width, most: self.in_ring });
+            return Err(NoFields::Wide { width, most: self.in_ring, seen: self.most_seen });
         }
         if width < least || width > most {
             return Err(NoFields::Extent { width, least, most });
@@ -61,14 +65,14 @@ pub(super) fn length(width: f64) -> Result<f64, NoFields> {
     if width > 0.0 && width.is_finite() { Ok(width) } else { Err(NoFields::Width(width)) }
 }
 
-/// The largest width with which a point sees no more than [`MOST_SEEN`] bodies and images, in the cells that the box of
-/// its reach touches: along a period at least one \[m\]. To three digits, so that it can be written.
-fn widest_in_ring(periods: &Lattice, bodies: usize) -> f64 {
+/// The largest width with which a point sees no more than so many images of a body, in the cells that the box of its
+/// reach touches: along a period at least one \[m\]. To three digits, so that it can be written.
+fn widest_in_ring(periods: &Lattice, most: f64) -> f64 {
     // Along each period, with a width of a metre.
     let reach = Weight::new(1.0).reach();
     let mut images: Vec<f64> = periods.reciprocal().iter().map(|vector| reach * vector.norm() / PI).collect();
     images.sort_by(|one, other| other.total_cmp(one));
-    let most = (MOST_SEEN / bodies.max(1) as f64).max(1.0);
+    let most = most.max(1.0);
     let (mut widest, mut seen) = (f64::INFINITY, 1.0);
     for (images, count) in images.iter().zip(1..) {
         seen *= images;
@@ -89,7 +93,7 @@ mod tests {
     use super::*;
 
     fn ring(periods: &[Vec3], bodies: usize) -> f64 {
-        widest_in_ring(&Lattice::new(periods.to_vec()).unwrap(), bodies)
+        widest_in_ring(&Lattice::new(periods.to_vec()).unwrap(), MOST_ON_PAGE / bodies as f64)
     }
 
     #[test]
@@ -102,12 +106,12 @@ mod tests {
         assert_eq!(ring(&[x, 1e9 * y], 1), 11100.0);
         // More bodies than may be seen: each once.
         assert_eq!(ring(&[100.0 * x, 100.0 * y, 100.0 * z], 1_000_000), 5.55);
-        assert_eq!(widest_in_ring(&Lattice::default(), 3), f64::INFINITY);
+        assert_eq!(widest_in_ring(&Lattice::default(), 3.0), f64::INFINITY);
     }
 
     #[test]
     fn widths_are_in_proportion_to_the_bodies() {
-        let widths = Widths { extent: 2.0, in_ring: f64::INFINITY };
+        let widths = Widths { extent: 2.0, in_ring: f64::INFINITY, most_seen: MOST_ON_PAGE };
         for width in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             assert!(matches!(widths.weight(width), Err(NoFields::Width(_))), "{width}");
         }
