@@ -25,7 +25,7 @@ pub(crate) struct SceneContext<'a> {
     pub(super) supports_move: bool,
     /// Whether the undisturbed fluid has a flow.
     pub(super) fluid_flows: bool,
-    /// Whether that flow is said to have a gradient, zero or not.
+    /// Whether that flow has a gradient at a time.
     pub(super) fluid_has_gradient: bool,
     /// η \[Pa s\] and ρ_f \[kg/m³\], if the file says so without error.
     pub(super) fluid: Option<[f64; 2]>,
@@ -44,7 +44,6 @@ impl<'a> SceneContext<'a> {
         constants: Option<&'a BTreeMap<String, AnyQuantity>>,
     ) -> Self {
         let supports = document.root.get("support").map(Node::items).unwrap_or_default();
-        let fluid = document.root.get("fluid");
         Self {
             files,
             end: partial.time.as_ref().map(|time| time.end.value()),
@@ -54,8 +53,8 @@ impl<'a> SceneContext<'a> {
                 .iter()
                 .any(|support| support.get("shape").is_none() && support.get("motion").is_some()),
             fluid_flows: partial.fluid.as_ref().is_some_and(flows),
-            fluid_has_gradient: fluid.is_some_and(|fluid| fluid.get("velocity_gradient").is_some()),
-            has_fluid: fluid.is_some(),
+            fluid_has_gradient: partial.fluid.as_ref().is_some_and(has_gradient),
+            has_fluid: document.root.get("fluid").is_some(),
             fluid: partial.fluid.as_ref().map(|fluid| [fluid.viscosity.value(), fluid.density.value()]),
             self_gravity: partial.world.self_gravity.map(|gravity| gravity.constant.value()),
             constants,
@@ -63,8 +62,12 @@ impl<'a> SceneContext<'a> {
     }
 }
 
+/// Whether the velocity of a fluid far from the bodies changes with the place.
+fn has_gradient(fluid: &Fluid) -> bool {
+    fluid.velocity_gradient != Flow::default()
+}
+
 /// Whether a fluid flows far from the bodies.
 fn flows(fluid: &Fluid) -> bool {
-    let Fluid { velocity, velocity_gradient, .. } = fluid;
-    *velocity != Flow::default() || *velocity_gradient != Flow::default()
+    fluid.velocity != Flow::default() || has_gradient(fluid)
 }
