@@ -138,7 +138,9 @@ fn along_path<'py>(py: Python<'py>, found: &BandSurvey) -> PyResult<Bound<'py, P
     told.set_item("velocity", array(py, velocity, &[rows, branches, 3])?)?;
     let shares = found.participation.concat().concat();
     told.set_item("participation", array(py, shares, &[rows, branches, PARTS])?)?;
-    told.set_item("edges", edges_of(py, found, [rows, branches])?)?;
+    if !found.edges.is_empty() {
+        told.set_item("edges", edges_of(py, found, [rows, branches])?)?;
+    }
     if let Some(shapes) = &found.shapes {
         told.set_item("shapes", shapes_of_bodies(py, shapes, [rows, branches])?)?;
     }

@@ -148,7 +148,10 @@ describe("bands", () => {
     for (const many of [4, 5, 7, 8, 11, 40]) {
       const share = Math.floor(many / 4) / many;
       const shares = [[[share, share]]] as [number, number][][];
-      const [, sharing] = sharingsOf({ ...bands, edges: [{ direction: 2, cells: Math.floor(many / 4), shares }] });
+      const [, sharing] = sharingsOf({
+        ...bands,
+        edges: [{ direction: 2, cells: Math.floor(many / 4), shares }],
+      });
       expect(sharing.names[mostOf(sharing, 0, 0)]).toBe("inside");
     }
   });

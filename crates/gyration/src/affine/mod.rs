@@ -58,8 +58,8 @@ pub struct AffineBody {
     pub anisotropic: Option<AnisotropicFriction>,
     /// The gradients that it is kept to, if it is.
     pub guide: Option<Box<StrainGuide>>,
-    /// Its kinetic energy, if that is not ½ tr(Ṗ J Ṗᵀ); of a body that is incompressible, pinned, kept or remembered
-    /// by a fluid it is.
+    /// Its kinetic energy, if that is not ½ tr(Ṗ J Ṗᵀ); of a body that is incompressible, pinned, kept or remembered by
+    /// a fluid it is.
     pub kinetic: Option<Kinetic>,
 }
 
