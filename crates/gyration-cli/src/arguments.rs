@@ -2,27 +2,33 @@
 
 mod bands;
 mod bench;
+mod completion;
+mod continuum;
+mod export;
 mod fields;
 mod orbit;
+mod plot;
+mod resistance;
 mod spectrum;
+#[cfg(feature = "study")]
+mod study;
 
 pub use bands::Bands;
 pub use bench::BenchArguments;
+pub use continuum::ContinuumArguments;
+pub use export::{Export, ExportFormat};
 pub use fields::FieldArguments;
 pub use orbit::OrbitArguments;
+pub use plot::Plot;
+pub use resistance::ResistanceArguments;
 pub use spectrum::SpectrumArguments;
+#[cfg(feature = "study")]
+pub use study::{StudyAction, StudyArguments, StudyPlot};
 
 use clap::builder::styling::{AnsiColor, Styles};
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
-use clap_complete::engine::{ArgValueCompleter, CompletionCandidate, PathCompleter, ValueCompleter};
-#[cfg(feature = "study")]
-use gyration_plot::study::PlotKind;
-use gyration_plot::{PlotQuantity, TimeSpan};
-use gyration_sim::modes::bands::ContinuumModel;
-use gyration_sim::resistance::TRIANGLES_ALLOWED;
-use std::ffi::OsStr;
+use completion::{completer, names_of_scenes, scenes};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -188,86 +194,6 @@ pub struct Modes {
     pub json: bool,
 }
 
-/// `gyration continuum`
-#[derive(Debug, Args)]
-pub struct ContinuumArguments {
-    /// The scene.
-    #[command(flatten)]
-    pub scene: SceneArguments,
-    /// What of the series in k is kept
-    #[arg(long, value_name = "MODEL", default_value = "mindlin")]
-    pub model: ModelOfContinuum,
-    /// Vertices κ of the path along which its waves stand beside those of the lattice, as of `gyration bands`
-    #[arg(long, value_name = "PATH", allow_hyphen_values = true)]
-    pub path: Option<String>,
-    /// Wave vectors a segment, both ends included
-    #[arg(long, value_name = "N", default_value = "101")]
-    pub points: NonZeroUsize,
-    /// Draw both, and how far the model is off: SVG, PNG or PDF by the ending
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub plot: Option<PathBuf>,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// The models of a continuum.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ModelOfContinuum {
-    /// Displacement and what granules do, to first order of what joins them
-    First,
-    /// The same with double stresses
-    Mindlin,
-    /// Moduli of strains, of granules and between them
-    Relaxed,
-    /// Mindlin's, of granules that turn and do not deform
-    Cosserat,
-    /// Displacement alone, to k²
-    Cauchy,
-    /// Displacement alone, to k⁴
-    Gradient,
-}
-
-impl ModelOfContinuum {
-    /// The model.
-    pub fn model(self) -> ContinuumModel {
-        match self {
-            Self::First => ContinuumModel::First,
-            Self::Mindlin => ContinuumModel::Mindlin,
-            Self::Relaxed => ContinuumModel::Relaxed,
-            Self::Cosserat => ContinuumModel::Cosserat,
-            Self::Cauchy => ContinuumModel::Cauchy,
-            Self::Gradient => ContinuumModel::Gradient,
-        }
-    }
-}
-
-/// `gyration resistance`
-#[derive(Debug, Args)]
-pub struct ResistanceArguments {
-    /// Path of a scene, or its name in the gallery; behind a colon one body of it
-    #[arg(value_name = "SCENE[:BODY]", value_hint = ValueHint::FilePath, add = completer(scenes))]
-    pub scene: String,
-    /// Change a value of the scene
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub overrides: Vec<String>,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-    /// By boundary elements also where there is a closed form
-    #[arg(long)]
-    pub elements: bool,
-    /// About how many triangles boundary elements take [default: 1280]
-    #[arg(long, value_name = "N", value_parser = triangles())]
-    pub triangles: Option<u32>,
-    /// Near a wall without slip: the plane of this support
-    #[arg(long, value_name = "SUPPORT")]
-    pub wall: Option<String>,
-    /// Small vibrations of this frequency [Hz], of spheres in a fluid with a density
-    #[arg(long, value_name = "HZ", conflicts_with_all = ["elements", "triangles", "wall"])]
-    pub frequency: Option<f64>,
-}
-
 /// `gyration new`
 #[derive(Debug, Args)]
 pub struct New {
@@ -307,100 +233,6 @@ pub struct ImportArguments {
     pub quiet: bool,
 }
 
-/// `gyration export`
-#[derive(Debug, Args)]
-pub struct Export {
-    /// Directory of the recording
-    #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub recording: PathBuf,
-    /// What to write [default: by the ending of -o]
-    #[arg(long)]
-    pub format: Option<ExportFormat>,
-    /// File to write; - writes csv to stdout [default: STEM.csv, .npz, .pvd, .glb, .gif … in the current folder]
-    #[arg(short, long, value_name = "PATH", value_hint = ValueHint::FilePath)]
-    pub output: Option<PathBuf>,
-    /// Take each N-th sample, and the last (vtk, xyz)
-    #[arg(long, value_name = "N")]
-    pub every: Option<NonZeroUsize>,
-    /// The time of the picture [s] (png) [default: the end]
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
-    pub at: Option<f64>,
-    /// Show it from this time on [s] (gif, mp4)
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
-    pub from: Option<f64>,
-    /// Show it up to this time [s] (gif, mp4)
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
-    pub to: Option<f64>,
-    /// Write what acts between two, a row a sample and pair (csv of a scene with record = { pairs = true })
-    #[arg(long)]
-    pub pairs: bool,
-}
-
-/// Formats of an export.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ExportFormat {
-    /// One row a sample, 17 digits
-    Csv,
-    /// All arrays, for numpy.load
-    Npz,
-    /// Surfaces with tractions and stresses, for ParaView: STEM.pvd, with the data in STEM-vtp beside it
-    Vtk,
-    /// A line a body, for OVITO and whatever reads extended XYZ
-    Xyz,
-    /// The motion as an animation, for viewers and modellers: STEM.glb
-    Gltf,
-    /// The motion as pictures in one file: STEM.gif
-    Gif,
-    /// The motion as a film, by the program ffmpeg: STEM.mp4
-    Mp4,
-    /// The bodies at one time, --at: STEM.png
-    Png,
-}
-
-/// `gyration plot`
-#[derive(Debug, Args)]
-pub struct Plot {
-    /// Directory of a recording, a scene, or the table of a study
-    #[arg(value_name = "DIR|SCENE", value_hint = ValueHint::AnyPath, add = completer(scenes))]
-    pub source: String,
-    /// What to draw, below each other [default: overview of a recording, laws of a scene]
-    #[arg(value_name = "WHAT", value_parser = quantity())]
-    pub what: Vec<PlotQuantity>,
-    /// File to write: .svg, .png, .pdf or .gif; - writes SVG to stdout [default: STEM-WHAT.svg in the current folder]
-    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub output: Option<PathBuf>,
-    /// The two measures of `stroke`, to the right and upwards, as columns of the CSV without the body, V_xx and Q_xx
-    /// besides: G_xz,G_zz or G_zz,P_zz [default: entries of G that enclose most]
-    #[arg(long, value_name = "A,B", value_delimiter = ',')]
-    pub measures: Vec<String>,
-    /// Columns of the CSV over time: die.vx,*.gap or joint.*.angle; * stands for any letters
-    #[arg(long, value_name = "A,B", value_delimiter = ',')]
-    pub columns: Vec<String>,
-    /// Show it from this time on [s]
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
-    pub from: Option<f64>,
-    /// Show it up to this time [s]
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
-    pub to: Option<f64>,
-    /// Change a value of the scene before its laws are drawn
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub overrides: Vec<String>,
-}
-
-impl Plot {
-    /// From when to when it is shown.
-    pub fn span(&self) -> TimeSpan {
-        TimeSpan { from: self.from, to: self.to }
-    }
-}
-
-impl Export {
-    /// From when to when it is shown.
-    pub fn span(&self) -> TimeSpan {
-        TimeSpan { from: self.from, to: self.to }
-    }
-}
-
 /// `gyration report`
 #[cfg(feature = "view")]
 #[derive(Debug, Args)]
@@ -431,73 +263,6 @@ pub struct ViewArguments {
     pub overrides: Vec<String>,
 }
 
-/// `gyration study`
-#[cfg(feature = "study")]
-#[derive(Debug, Args)]
-pub struct StudyArguments {
-    /// Path of a study, or the name of a ready one; without it, the ready ones are listed
-    #[arg(value_name = "STUDY", value_hint = ValueHint::FilePath, add = completer(studies))]
-    pub study: Option<String>,
-    /// What to do with its table instead of making it.
-    #[command(subcommand)]
-    pub action: Option<StudyAction>,
-    /// Folder of the table [default: STEM.study in the current folder]; of `plot` the picture, .svg, .png, .pdf or -
-    /// [default: STEM.svg]
-    #[arg(short, long, value_name = "PATH", value_hint = ValueHint::AnyPath, global = true)]
-    pub output: Option<PathBuf>,
-    /// Make part K of N only, into DIR/shard-K-of-N; `merge` joins the parts
-    #[arg(long, value_name = "K/N")]
-    pub shard: Option<String>,
-    /// Make what is missing in a table
-    #[arg(long, conflicts_with = "force")]
-    pub resume: bool,
-    /// Replace an existing table
-    #[arg(long, global = true)]
-    pub force: bool,
-    /// Threads [default: as many as there are processors]
-    #[arg(long, value_name = "N")]
-    pub threads: Option<NonZeroUsize>,
-    /// Change a value of the study: repetitions=100, parameter.height.uniform.to=0.5
-    #[arg(long = "set", value_name = "KEY=VALUE", global = true)]
-    pub overrides: Vec<String>,
-    /// Neither progress nor summary; errors are still reported
-    #[arg(short, long, global = true)]
-    pub quiet: bool,
-    /// Print the summary, or the list of the ready studies, as JSON to stdout
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// `gyration study STUDY …`
-#[cfg(feature = "study")]
-#[derive(Debug, Subcommand)]
-pub enum StudyAction {
-    /// Join the shards of a study into one table
-    Merge,
-    /// Draw the table of a study: counts, curves with intervals, maps, dots
-    Plot(StudyPlot),
-}
-
-/// `gyration study STUDY plot`
-#[cfg(feature = "study")]
-#[derive(Debug, Args)]
-pub struct StudyPlot {
-    /// Column of the axis to the right [default: what the study says, or the first axis of its grid]
-    #[arg(long, value_name = "COLUMN")]
-    pub x: Option<String>,
-    /// Column of the axis upwards; face=+z,-z: the share of the runs with one of these values, or of those of another
-    /// column
-    #[arg(long, value_name = "COLUMN[=VALUE,…]")]
-    pub y: Option<String>,
-    /// Column that colours tell apart
-    #[arg(long, visible_alias = "color", value_name = "COLUMN")]
-    pub colour: Option<String>,
-    /// Kind of picture; with this, --x or --y the study's own columns no longer count [default: what the study says, or
-    /// by the columns]
-    #[arg(long, value_parser = PlotKind::WORDS)]
-    pub kind: Option<String>,
-}
-
 /// `gyration calibrate`
 #[cfg(feature = "study")]
 #[derive(Debug, Args)]
@@ -511,44 +276,4 @@ pub struct Calibrate {
     /// Print the result as JSON
     #[arg(long)]
     pub json: bool,
-}
-
-fn completer(candidates: fn(&OsStr) -> Vec<CompletionCandidate>) -> ArgValueCompleter {
-    ArgValueCompleter::new(candidates)
-}
-
-/// Names of the gallery that begin so.
-fn names_of_scenes(begun: &OsStr) -> Vec<CompletionCandidate> {
-    named(gyration_scene::gallery().iter().map(|(name, _)| *name), begun)
-}
-
-/// Names of the gallery and paths that begin so.
-fn scenes(begun: &OsStr) -> Vec<CompletionCandidate> {
-    let mut all = names_of_scenes(begun);
-    all.extend(PathCompleter::any().complete(begun));
-    all
-}
-
-/// Names of ready studies and paths that begin so.
-#[cfg(feature = "study")]
-fn studies(begun: &OsStr) -> Vec<CompletionCandidate> {
-    let mut all = named(gyration_study::studies().iter().map(|(name, _)| *name), begun);
-    all.extend(PathCompleter::any().complete(begun));
-    all
-}
-
-fn named<'a>(names: impl Iterator<Item = &'a str>, begun: &OsStr) -> Vec<CompletionCandidate> {
-    let begun = begun.to_string_lossy();
-    names.filter(|name| name.starts_with(&*begun)).map(CompletionCandidate::new).collect()
-}
-
-/// Reads the name of a quantity; help lists all of them.
-fn quantity() -> impl TypedValueParser<Value = PlotQuantity> {
-    let named = |quantity: PlotQuantity| PossibleValue::new(quantity.name()).help(quantity.description());
-    PossibleValuesParser::new(PlotQuantity::ALL.map(named)).try_map(|name| PlotQuantity::of_name(&name))
-}
-
-/// Reads how many triangles boundary elements take.
-fn triangles() -> impl TypedValueParser<Value = u32> {
-    clap::value_parser!(u32).range(i64::from(*TRIANGLES_ALLOWED.start())..=i64::from(*TRIANGLES_ALLOWED.end()))
 }
