@@ -5,7 +5,10 @@ use gyration::tensor::Vec3;
 use gyration_record::Recording;
 use gyration_scene::Scene;
 use gyration_sim::{FieldMaps, FieldPoints, FieldSurvey, Job, NoFields, Unwatched, open};
+use gyration_threads::Interruption;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// The recording of a scene that is run.
 fn recorded(folder: &tempfile::TempDir, scene: &Scene) -> Recording {
@@ -125,6 +128,36 @@ fn recorded_pairs_are_those_of_the_replay() {
     let [with, without] = [with_pairs(CUBES), CUBES.to_owned()].map(|text| fields(&scene(&text), 0.1, &at).unwrap());
     assert_eq!(with, without);
     assert_ne!(with.fields[1][0].stress, gyration::tensor::Mat3::zeros());
+}
+
+#[test]
+fn maps_that_nobody_waits_for_are_given_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let recording = recorded(&folder, &scene(CUBES));
+    let mut maps = FieldMaps::of(&recording).unwrap();
+    let raised = Interruption::default().raised_by(Arc::new(AtomicBool::new(true)));
+    assert!(matches!(raised.within(|| maps.map(0, 0.1)), Err(NoFields::Interrupted)));
+    assert!(maps.map(0, 0.1).is_ok());
+}
+
+#[test]
+fn the_box_of_a_grid_is_that_of_all_samples_whichever_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    // Up, and down again: the middle sample is the highest.
+    let thrown = r#"
+time = { end = 0.2, sample = 0.1 }
+[[body]]
+name = "ball"
+shape = { sphere = { radius = 0.1 } }
+mass = 2
+velocity = [0, 0, 0.980665]
+"#;
+    let recording = recorded(&folder, &scene(thrown));
+    let of = |every| FieldSurvey::of(&recording, 0.01, &FieldPoints::Usual, every).unwrap();
+    let (all, ends) = (of(1), of(2));
+    assert_eq!((all.times.len(), ends.times.len()), (3, 2));
+    assert_eq!(all.grid, ends.grid);
+    assert!(all.grid.unwrap().counts[2] > all.grid.unwrap().counts[0]);
 }
 
 #[test]

@@ -68,6 +68,9 @@ export function rangeOf(values: Float32Array): [number, number] | null {
 /** Numbers that are kept of what can be asked for again: 80 MB. */
 const MOST_KEPT = 20_000_000;
 
+/** Brings the map of a sample, with a width [m] or the usual one, unless it is given up. */
+type LoadMap = (row: number, width: number | null, signal: AbortSignal) => Promise<FieldMap>;
+
 /** What of the fields is looked at, and the maps that are known. */
 export class Fields {
   /** Whether they are shown, and whether that was ever chosen. */
@@ -85,10 +88,10 @@ export class Fields {
   private readonly ranges = new Map<string, [number, number]>();
   private kept = 0;
   private wanted: number | null = null;
-  private loads = false;
+  /** The map that is on its way, until nobody wants it any longer. */
+  private loading: AbortController | null = null;
 
-  /** `load` brings the map of a sample. */
-  constructor(private readonly load: (row: number, width: number | null) => Promise<FieldMap>) {}
+  constructor(private readonly load: LoadMap) {}
 
   get width(): number | null {
     return this.asked;
@@ -108,6 +111,9 @@ export class Fields {
       this.touched = true;
       this.key = field;
       this.width = width;
+    } else {
+      this.wanted = null;
+      this.loading?.abort();
     }
     this.tell();
   }
@@ -118,6 +124,7 @@ export class Fields {
     this.ranges.clear();
     this.kept = 0;
     this.problem = null;
+    this.loading?.abort();
     this.tell();
   }
 
@@ -140,7 +147,7 @@ export class Fields {
 
   /** Whether a map is on its way. */
   get isLoading(): boolean {
-    return this.loads;
+    return this.loading !== null;
   }
 
   /** The smallest and the largest number of a field in all maps that are known; `null` where all are zero. */
@@ -150,21 +157,22 @@ export class Fields {
 
   /** Asks for what is wanted, one map after the other: while it is played or dragged, only the last wish counts. */
   private async fetch(): Promise<void> {
-    if (this.loads) return;
-    this.loads = true;
+    if (this.loading) return;
     while (this.wanted !== null) {
-      const { wanted: row, asked } = this;
+      const row = this.wanted;
+      this.loading = new AbortController();
+      const { signal } = this.loading;
       try {
-        const map = await this.load(row, asked);
-        // What was asked for meanwhile is of another width.
-        if (asked === this.asked) this.put(row, map);
+        const map = await this.load(row, this.asked, signal);
+        // What was given up is of another width.
+        if (!signal.aborted) this.put(row, map);
       } catch (error) {
-        if (asked === this.asked) this.problem = error instanceof Error ? error.message : String(error);
+        if (!signal.aborted) this.problem = error instanceof Error ? error.message : String(error);
       }
-      if (asked === this.asked && (this.wanted === row || this.problem !== null)) this.wanted = null;
+      if (!signal.aborted && (this.wanted === row || this.problem !== null)) this.wanted = null;
       // Before the last is told: whoever draws it may want another.
       const isLast = this.wanted === null;
-      if (isLast) this.loads = false;
+      if (isLast) this.loading = null;
       this.tell();
       if (isLast) return;
     }

@@ -122,9 +122,9 @@ function forcesFrom(recording: Recording): (row: number) => Promise<Samples> {
 }
 
 /** The map of the fields at a sample, with a width [m] or the usual one. */
-async function servedMap(row: number, width: number | null): Promise<FieldMap> {
+async function servedMap(row: number, width: number | null, signal: AbortSignal): Promise<FieldMap> {
   const query = width === null ? "" : `&width=${width}`;
-  return mapIn(await (await answer(`api/fields?row=${row}${query}`)).arrayBuffer());
+  return mapIn(await (await answer(`api/fields?row=${row}${query}`, signal)).arrayBuffer());
 }
 
 /** An answer of the server that is an error, in its words. */
@@ -140,8 +140,8 @@ async function bytes(path: string): Promise<ArrayBuffer> {
 }
 
 /** What the server gives at a path relative to the address of the page, which has its token. */
-export async function answer(path: string): Promise<Response> {
-  const response = await fetch(path, { cache: "no-store" });
+export async function answer(path: string, signal?: AbortSignal): Promise<Response> {
+  const response = await fetch(path, { cache: "no-store", signal });
   if (!response.ok)
     throw new ServerError((await response.text()) || `The server answers ${response.status}.`);
   return response;

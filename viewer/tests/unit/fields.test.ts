@@ -30,11 +30,13 @@ function asked() {
   const waiting: {
     row: number;
     width: number | null;
+    signal: AbortSignal;
     give: (map: FieldMap) => void;
     fail: (e: Error) => void;
   }[] = [];
   const fields = new Fields(
-    (row, width) => new Promise((give, fail) => waiting.push({ row, width, give, fail })),
+    (row, width, signal) =>
+      new Promise((give, fail) => waiting.push({ row, width, signal, give, fail })),
   );
   return { fields, waiting };
 }
@@ -90,7 +92,9 @@ describe("fields of a recording", () => {
   it("of_another_width_are_asked_for_anew_and_late_ones_are_dropped", async () => {
     const { fields, waiting } = asked();
     fields.at(0);
+    expect(waiting[0].signal.aborted).toBe(false);
     fields.width = 0.5;
+    expect(waiting[0].signal.aborted).toBe(true);
     waiting[0].give(mapOf([7, 7]));
     fields.at(0);
     await settled();
@@ -99,6 +103,17 @@ describe("fields of a recording", () => {
       [0, 0.5],
     ]);
     expect([fields.known(0), fields.range("density")]).toEqual([null, null]);
+  });
+
+  it("that_are_no_longer_shown_are_given_up_without_a_complaint", async () => {
+    const { fields, waiting } = asked();
+    fields.look("speed", null);
+    fields.at(0);
+    fields.look(null, null);
+    expect(waiting[0].signal.aborted).toBe(true);
+    waiting[0].fail(new Error("aborted"));
+    await settled();
+    expect([fields.problem, fields.isLoading, waiting.length]).toEqual([null, false, 1]);
   });
 
   it("that_are_refused_say_why_and_are_not_asked_for_again", async () => {

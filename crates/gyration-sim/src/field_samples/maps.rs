@@ -3,9 +3,8 @@
 use super::layer::FieldLayer;
 use super::source::FieldSource;
 use super::widths::{MOST_ON_PAGE, Widths};
-use super::{FieldGrid, NoFields};
-use crate::fields::{FIELD_SCALARS, LocalFields};
-use crate::replay::ReplayError;
+use super::{FieldGrid, NoFields, averaged};
+use crate::fields::FIELD_SCALARS;
 use gyration::tensor::Vec3;
 use gyration_record::Recording;
 
@@ -50,19 +49,8 @@ impl FieldMaps {
     /// [`NoFields`].
     pub fn of(recording: &Recording) -> Result<Self, NoFields> {
         let source = FieldSource::open(recording)?;
-        let bodies = source.replay.model().bodies.len();
-        let mut corners = [Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)];
-        let mut first = Vec::new();
-        let chunk = recording.chunk_rows().max(1);
-        for from in (0..recording.rows()).step_by(chunk) {
-            let rows = from..(from + chunk).min(recording.rows());
-            let read = recording.read_rows("position", rows).map_err(ReplayError::Record)?;
-            let places = || read.data.chunks_exact(3).map(Vec3::from_column_slice);
-            corners = places().fold(corners, |[low, high], place| [low.inf(&place), high.sup(&place)]);
-            if from == 0 {
-                first = places().take(bodies).collect();
-            }
-        }
+        let corners = source.corners()?;
+        let first = source.first_places()?;
         let sizes = source.replay.model().bodies.iter().map(|body| body.size).fold(0.0, f64::max);
         let widths = Widths::of(&source.replay, &corners, MOST_ON_PAGE);
         let usual_width = mean_distance(&first).map_or(sizes, |distance| USUAL_DISTANCES * distance);
@@ -83,10 +71,10 @@ impl FieldMaps {
     pub fn map(&mut self, row: usize, width: f64) -> Result<FieldMap, NoFields> {
         let sample = self.source.sample(row)?;
         let weight = self.widths.weight(width)?;
-        let grid = FieldGrid::over(self.corners.into_iter(), width, |sides| counts(sides, width));
+        let grid = FieldGrid::over(&self.corners, width, |sides| counts(sides, width));
         let (_, along) = FieldLayer::axes(&grid.counts);
         let (points, _) = grid.with_points();
-        let fields: Vec<LocalFields> = points.iter().map(|at| sample.fields(at, &weight)).collect();
+        let fields = averaged(&sample, &points, &weight)?;
         let values = FIELD_SCALARS.iter().map(|scalar| scalar.values(&fields)).collect();
         Ok(FieldMap { time: sample.time, grid, along, values })
     }

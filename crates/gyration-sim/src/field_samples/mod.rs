@@ -9,11 +9,12 @@ mod widths;
 pub use layer::FieldLayer;
 pub use maps::{FieldMap, FieldMaps};
 
-use crate::fields::{LocalFields, Third};
+use crate::fields::{Granules, LocalFields, Third, Weight};
 use crate::format::significant;
 use crate::replay::ReplayError;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_record::Recording;
+use gyration_threads::Interruption;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use source::FieldSource;
 use widths::{MOST_SEEN, Widths};
@@ -101,6 +102,9 @@ pub enum NoFields {
     /// A grid without points.
     #[error("a grid has at least one point along each axis")]
     EmptyGrid,
+    /// Nobody waits for them any longer.
+    #[error("the averaging was given up")]
+    Interrupted,
 }
 
 impl NoFields {
@@ -120,27 +124,36 @@ impl FieldSurvey {
         // Before what takes long.
         widths::length(width)?;
         let mut source = FieldSource::open(recording)?;
-        let mut rows: Vec<usize> = (0..recording.rows()).step_by(every.max(1)).collect();
-        rows.extend(recording.rows().checked_sub(1).filter(|last| last % every.max(1) > 0));
-        let samples = rows.into_iter().map(|row| source.sample(row)).collect::<Result<Vec<_>, _>>()?;
-        let places = || samples.iter().flat_map(|sample| sample.grains.iter().map(|grain| grain.place));
-        let weight = Widths::of(&source.replay, &corners_of(places()), MOST_SEEN).weight(width)?;
+        let corners = source.corners()?;
+        let weight = Widths::of(&source.replay, &corners, MOST_SEEN).weight(width)?;
         let (points, grid) = match points {
             FieldPoints::At(points) => (points.clone(), None),
             FieldPoints::Grid(counts) if counts.contains(&0) => return Err(NoFields::EmptyGrid),
-            FieldPoints::Grid(counts) => FieldGrid::over(places(), width, |_| *counts).with_points(),
-            FieldPoints::Usual => FieldGrid::over(places(), width, usual_counts).with_points(),
+            FieldPoints::Grid(counts) => FieldGrid::over(&corners, width, |_| *counts).with_points(),
+            FieldPoints::Usual => FieldGrid::over(&corners, width, usual_counts).with_points(),
         };
-        let fields = samples.iter().map(|sample| points.iter().map(|at| sample.fields(at, &weight)).collect());
-        let fields = fields.collect();
-        Ok(Self { width, times: samples.iter().map(|sample| sample.time).collect(), points, grid, fields })
+        let mut rows: Vec<usize> = (0..recording.rows()).step_by(every.max(1)).collect();
+        rows.extend(recording.rows().checked_sub(1).filter(|last| last % every.max(1) > 0));
+        let (mut times, mut fields) = (Vec::new(), Vec::new());
+        for row in rows {
+            let sample = source.sample(row)?;
+            times.push(sample.time);
+            fields.push(averaged(&sample, &points, &weight)?);
+        }
+        Ok(Self { width, times, points, grid, fields })
     }
 }
 
-/// The corners of the box that places fill; the origin without any.
-fn corners_of(places: impl Iterator<Item = Vec3>) -> [Vec3; 2] {
-    let boxes = places.map(|place| [place; 2]);
-    boxes.reduce(|[low, high], [place, _]| [low.inf(&place), high.sup(&place)]).unwrap_or([Vec3::zeros(); 2])
+/// The fields of a sample at points.
+///
+/// # Errors
+/// `Interrupted`.
+fn averaged(sample: &Granules, points: &[Vec3], weight: &Weight) -> Result<Vec<LocalFields>, NoFields> {
+    let at = |point| match Interruption::due() {
+        Some(_) => Err(NoFields::Interrupted),
+        None => Ok(sample.fields(point, weight)),
+    };
+    points.iter().map(at).collect()
 }
 
 /// Points along the sides of a box, 16 along the longest.
@@ -151,8 +164,7 @@ fn usual_counts(sides: &Vec3) -> [usize; 3] {
 
 impl FieldGrid {
     /// Over a box, which the places and a margin fill.
-    fn over(places: impl Iterator<Item = Vec3>, width: f64, counts: impl Fn(&Vec3) -> [usize; 3]) -> Self {
-        let [low, high] = corners_of(places);
+    fn over([low, high]: &[Vec3; 2], width: f64, counts: impl Fn(&Vec3) -> [usize; 3]) -> Self {
         let (low, high) = (low - Vec3::repeat(MARGIN * width), high + Vec3::repeat(MARGIN * width));
         let counts = counts(&(high - low));
         let spacing =

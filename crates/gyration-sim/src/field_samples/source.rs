@@ -3,6 +3,7 @@
 use super::NoFields;
 use crate::fields::{Granules, RecordedPair};
 use crate::replay::{Replay, ReplayError};
+use gyration::tensor::Vec3;
 use gyration_record::Recording;
 
 /// A recording and its replay.
@@ -24,6 +25,33 @@ impl FieldSource {
             return Err(NoFields::NoPairs);
         }
         Ok(Self { recording: recording.clone(), replay })
+    }
+
+    /// The corners of the box of the centres of all samples \[m\]; the origin without any.
+    ///
+    /// # Errors
+    /// Those of reading.
+    pub fn corners(&self) -> Result<[Vec3; 2], NoFields> {
+        let (recording, chunk) = (&self.recording, self.recording.chunk_rows().max(1));
+        let mut corners: Option<[Vec3; 2]> = None;
+        for from in (0..recording.rows()).step_by(chunk) {
+            let rows = from..(from + chunk).min(recording.rows());
+            let read = recording.read_rows("position", rows).map_err(ReplayError::Record)?;
+            let places = read.data.chunks_exact(3).map(Vec3::from_column_slice).map(|place| [place; 2]);
+            let both = |[low, high]: [Vec3; 2], [lower, higher]: [Vec3; 2]| [low.inf(&lower), high.sup(&higher)];
+            corners = corners.into_iter().chain(places).reduce(both);
+        }
+        Ok(corners.unwrap_or([Vec3::zeros(); 2]))
+    }
+
+    /// The places of all bodies in the first sample \[m\]; none without a sample.
+    ///
+    /// # Errors
+    /// Those of reading.
+    pub fn first_places(&self) -> Result<Vec<Vec3>, NoFields> {
+        let first = self.recording.read_rows("position", 0..self.recording.rows().min(1));
+        let first = first.map_err(ReplayError::Record)?;
+        Ok(first.data.chunks_exact(3).map(Vec3::from_column_slice).collect())
     }
 
     /// The bodies of a sample, and what is between two, as recorded if it is.

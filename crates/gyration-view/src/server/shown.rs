@@ -7,6 +7,8 @@ use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use gyration_record::RecordError;
 use gyration_scene::Scene;
+use gyration_threads::Interruption;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
 
 /// What requests share.
@@ -77,12 +79,24 @@ pub(super) fn refused(reason: String) -> BadRequest {
     BadRequest(StatusCode::UNPROCESSABLE_ENTITY, reason)
 }
 
-/// What takes long; other requests are answered meanwhile.
+/// What takes long; other requests are answered meanwhile. It is given up once nobody waits for the answer.
 pub(super) async fn apart<T: Send + 'static>(
     work: impl FnOnce() -> Result<T, BadRequest> + Send + 'static,
 ) -> Result<T, BadRequest> {
-    let done = tokio::task::spawn_blocking(work).await;
+    let asked = Asked::default();
+    let interruption = Interruption::default().raised_by(Arc::clone(&asked.0));
+    let done = tokio::task::spawn_blocking(move || interruption.within(work)).await;
     done.map_err(|error| BadRequest(StatusCode::INTERNAL_SERVER_ERROR, error.to_string()))?
+}
+
+/// Somebody who waits for an answer: the flag is raised when this goes.
+#[derive(Debug, Default)]
+struct Asked(Arc<AtomicBool>);
+
+impl Drop for Asked {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
 }
 
 #[cfg(test)]
@@ -100,6 +114,24 @@ mod tests {
         let scene = Scene::parse("fall.toml", &text, Path::new(""), &[]).unwrap();
         let provenance = Provenance { version: "0.0.0".into(), commit: None };
         Job::of(&scene, &provenance).record(path, &mut Unwatched).unwrap();
+    }
+
+    /// Without that a page that goes on to another map would wait for the last one.
+    #[test]
+    fn work_for_which_nobody_waits_is_given_up() {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap();
+        let (given_up, told) = std::sync::mpsc::channel();
+        let work = move || {
+            while Interruption::due().is_none() {
+                std::thread::yield_now();
+            }
+            given_up.send(()).unwrap();
+            Ok(())
+        };
+        let waited = async { tokio::time::timeout(std::time::Duration::from_millis(1), apart(work)).await };
+        assert!(runtime.block_on(waited).is_err());
+        told.recv().unwrap();
+        assert!(runtime.block_on(apart(|| Ok(Interruption::due()))).is_ok_and(|due| due.is_none()));
     }
 
     #[test]
