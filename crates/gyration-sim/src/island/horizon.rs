@@ -124,7 +124,7 @@ fn before_any_meeting(model: &Model, ends: &[StepEnd], within: f64, longest: f64
     for BodyPair { rule, bodies } in may_meet(model, ends, within) {
         let solids = bodies.map(|body| &*model.bodies[body].solid);
         for parts in Solid::parts_of(solids) {
-            let Some(reach) = model.rules().all()[rule].reach_between(solids, parts) else { continue };
+            let Some(reach) = model.rules().all()[rule].range_between(solids, parts) else { continue };
             let radii = [0, 1].map(|end| solids[end].part_radius(parts[end]));
             let approach = Approach::of(&ends[bodies[0]], &ends[bodies[1]]);
             step = step.min(before_meeting(&approach, (reach, radii), step));

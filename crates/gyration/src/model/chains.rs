@@ -60,7 +60,7 @@ impl Model {
         }
         let solids = bodies.map(|body| &*body.solid);
         let of_parts = |parts: [usize; 2]| {
-            let surfaces = self.rules.all()[pair.rule].reach_between(solids, parts)?;
+            let surfaces = self.rules.all()[pair.rule].range_between(solids, parts)?;
             let centers = cutoff(surfaces, [0, 1].map(|end| solids[end].part_radius(parts[end])));
             Some(Cutoff { centers, surfaces })
         };

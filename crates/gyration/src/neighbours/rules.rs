@@ -29,9 +29,9 @@ pub struct PairRules {
 }
 
 impl PairRule {
-    /// The distance at which the parts of two bodies begin to act on each other [m]; none if they do everywhere.
-    pub fn reach_between(&self, solids: [&Solid; 2], parts: [usize; 2]) -> Option<f64> {
-        Some(self.reach?.of(&self.laws, masses(solids, parts)))
+    /// A distance from which on the parts of two bodies do nothing to each other [m]; none if there is none.
+    pub fn range_between(&self, solids: [&Solid; 2], parts: [usize; 2]) -> Option<f64> {
+        Some(self.reach?.range(&self.laws, masses(solids, parts)))
     }
 
     /// Two bodies in the order in which the rule joins them; none if it does not.

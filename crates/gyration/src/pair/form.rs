@@ -26,7 +26,7 @@ const LEAST_BALLS: f64 = 1e-12;
 pub struct PairForm {
     /// What acts between them.
     pub laws: Arc<PairLaws>,
-    /// The distance at which it begins [m]; none if it is everywhere.
+    /// A distance from which on there is nothing [m]; none if it is everywhere.
     pub reach: Option<f64>,
     /// U_c [J]: below it nothing acts.
     pub(super) threshold: f64,

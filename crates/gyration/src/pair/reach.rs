@@ -54,7 +54,7 @@ pub struct Mass<'a> {
 /// Where the force of two bodies begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Threshold {
-    /// The distance [m].
+    /// A distance from which on there is none [m].
     pub reach: f64,
     /// U_c [J].
     pub energy: f64,
@@ -76,8 +76,8 @@ impl Reach {
         }
     }
 
-    /// The distance for two bodies [m].
-    pub fn of(&self, laws: &PairLaws, bodies: [Mass; 2]) -> f64 {
+    /// What is said for two bodies [m].
+    fn of(&self, laws: &PairLaws, bodies: [Mass; 2]) -> f64 {
         match self {
             Self::Length(reach) => *reach,
             Self::Gaps { longest, is_common: true, .. } => *longest,
@@ -90,17 +90,24 @@ impl Reach {
         GAPS * falling.contact_gap(laws, bodies).max(laws.held_gap().unwrap_or(0.0))
     }
 
-    /// Where the force of two bodies begins. U_c at so many gaps is that of two balls, if they are; else that of U_m.
+    /// Where the force of two bodies begins. U_c at so many gaps is that of two balls, if they are; else that of U_m,
+    /// to which balls come nearer only.
     pub fn threshold(&self, laws: &PairLaws, bodies: [Mass; 2]) -> Threshold {
         let surfaces = bodies.map(|body| body.surface);
-        let reach = self.of(laws, bodies);
-        let threshold = Threshold::at(laws, reach, surfaces);
-        match (self, balls(laws, surfaces)) {
-            (Self::Gaps { .. }, Some(balls)) => match balls.at(reach) {
-                Ok((energy, _)) => Threshold { energy, ..threshold },
-                Err(_) => threshold,
-            },
-            _ => threshold,
+        let threshold = Threshold::at(laws, self.of(laws, bodies), surfaces);
+        let Some(balls) = balls(laws, surfaces) else { return threshold };
+        let energy = match self {
+            Self::Gaps { .. } => balls.at(threshold.reach).map_or(threshold.energy, |(energy, _)| energy),
+            Self::Length(_) => threshold.energy,
+        };
+        Threshold { reach: threshold.reach.min(balls.range(energy)), energy }
+    }
+
+    /// A distance from which on two bodies do nothing to each other [m].
+    pub fn range(&self, laws: &PairLaws, bodies: [Mass; 2]) -> f64 {
+        match balls(laws, bodies.map(|body| body.surface)) {
+            Some(_) => self.threshold(laws, bodies).reach,
+            None => self.of(laws, bodies),
         }
     }
 }
@@ -217,6 +224,34 @@ mod tests {
         }
         println!("gaps of balls off by {worst:.1e}");
         assert!(worst < 1e-9);
+    }
+
+    /// By the closed form of two balls, which is not used where their gap is large against their radii.
+    #[test]
+    fn balls_do_nothing_from_their_range_on_and_something_just_within() {
+        let mut widest: f64 = 1.0;
+        for exponent in [2.0, 2.1, 2.5, 3.0, 6.0, 12.0] {
+            for radii in [[1.0, 1.0], [1.0, 0.1], [1e-3, 5.0]] {
+                for reach in [1e-3, 0.05, 0.3] {
+                    let laws = laws(100.0, exponent, 0.01);
+                    let surfaces = radii.map(Surface::sphere);
+                    let bodies = [0, 1].map(|i| Mass { surface: &surfaces[i], mass: 1.0 });
+                    let begins = Reach::Length(reach).threshold(&laws, bodies);
+                    let at_least = laws.most(reach, surfaces.each_ref().map(Surface::area));
+                    assert_eq!(begins.energy, at_least, "the law of a length stays");
+                    let balls = balls(&laws, surfaces.each_ref()).unwrap();
+                    let energy = |gap: f64| balls.at(gap).unwrap().0;
+                    let case = format!("{exponent} {radii:?} {reach}");
+                    assert!(begins.reach <= reach && energy(begins.reach) <= begins.energy * (1.0 + 1e-12), "{case}");
+                    if exponent >= 6.0 && reach < 0.1 * radii[0].min(radii[1]) {
+                        assert!(energy(0.999 * begins.reach) > begins.energy, "{case}");
+                        widest = widest.min(begins.reach / reach);
+                    }
+                }
+            }
+        }
+        println!("balls begin at {widest:.2} of a reach and more");
+        assert!(widest < 0.5);
     }
 
     /// Faces with the whole surfaces: F = α S (g/d₀)^−ν, U = F g/(ν−1) of equal bodies.

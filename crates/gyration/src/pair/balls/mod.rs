@@ -160,6 +160,20 @@ impl Balls {
         Err(PairFault::NotFound { decrement: f64::NAN })
     }
 
+    /// A slab [m] as wide as that or wider has no more than this energy [J]: U of balls of infinite radius is less.
+    ///
+    ///   v_i ≤ (2πR_i d₀/((ν−1)(ν−2))) (a_i/d₀)^(2−ν),   U ≤ C g^(2−ν),   C = c (Σ (√w_i R_i^−q)^(2(ν−1)/ν))^−ν
+    ///   c = 2πα d₀^ν/((ν−1)(ν−2))
+    ///
+    /// by the plane with the least of such bounds; infinite at ν = 2.
+    pub fn range(&self, energy: f64) -> f64 {
+        let Self { radii, shares, exponent, scale, reference_gap, .. } = self;
+        let part = |i: usize| libm::pow(shares[i], (exponent - 1.0) / exponent) * libm::pow(radii[i], -1.0 / exponent);
+        let weighed = 2.0 * PI * scale * libm::pow(part(0) + part(1), -exponent);
+        let steepness = (exponent - 1.0) * (exponent - 2.0);
+        reference_gap * libm::pow(weighed * reference_gap / (steepness * energy), 1.0 / (exponent - 2.0))
+    }
+
     /// U [J] and the force [N] where they are a slab [m] apart.
     ///
     /// # Errors
