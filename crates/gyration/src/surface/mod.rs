@@ -20,17 +20,17 @@
 //! | hemisphere | `hemisphere`: zone in closed form, arcs `graded` | `deformed/hemisphere`: `graded`, `points` |
 //! | wall | `cylinder`, `cone`: `rulings` around a `ring` | `deformed/walls`: `weighted_rulings` around an `own_ring` |
 //! | disk | `disk`: chords around a `ring` | the same times one weight |
-//! | torus | `torus`: a `ring` within a `ring` | `deformed/torus`: an `own_ring` within another, `points` |
+//! | torus | `torus`: `closed_circle` or `ring` within a `ring` | `deformed/torus`: `own_ring` in `own_ring`, `points` |
 //!
 //! Which formula, by exponent, for a request of order n:
 //!
-//! | kernel | facets | sphere, zone of a hemisphere | walls | all others |
-//! |---|---|---|---|---|
-//! | integer ν, n + 3 ≤ ν ≤ 24 | `facets/integer` | `line/kernel` | as `split` | products |
-//! | other integer ν | `facets/split` | `line/kernel` | as `split` | products |
-//! | half-integer ν | `facets/split` | `line/kernel` | as `split` | products and a square root |
-//! | any other ν | `facets/split` | `line/kernel` | as `split` | exp(−ν ln d) |
-//! | ln d | `facets/split` | `line/kernel` | as `split` | ln d |
+//! | kernel | facets | sphere, zone of a hemisphere | walls | circles of a torus | all others |
+//! |---|---|---|---|---|---|
+//! | integer ν, n + 3 ≤ ν ≤ 24 | `facets/integer` | `line/kernel` | as `split` | `closed_circle` to 16 | products |
+//! | other integer ν | `facets/split` | `line/kernel` | as `split` | `closed_circle` from 1 to 16 | products |
+//! | half-integer ν | `facets/split` | `line/kernel` | as `split` | as others | products and a square root |
+//! | any other ν | `facets/split` | `line/kernel` | as `split` | as others | exp(−ν ln d) |
+//! | ln d | `facets/split` | `line/kernel` | as `split` | as others | ln d |
 //!
 //! - On facets, weights for ν are lowered from those for ν + 1 where a request of higher order has these
 //!   (`facets/plan`).

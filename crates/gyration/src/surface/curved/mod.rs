@@ -17,6 +17,7 @@ mod patch;
 mod rules;
 mod sphere;
 mod torus;
+mod tube;
 
 pub use cone::ConeWall;
 pub use cylinder::CylinderWall;

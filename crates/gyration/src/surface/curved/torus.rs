@@ -6,18 +6,23 @@
 //!   a = g₀ − μ R cos φ,   b = r √(m_z² + μ² cos²φ).
 //!
 //! The integral around the tube is singular only where a² = b², a quadratic in cos φ whose two roots both exceed 1: the
-//! outer rule is graded to the smaller one, the inner one to its own a and b. Requires r ≤ R.
+//! outer rule is graded to the smaller one. For integer ν the integral around the tube has a closed form
+//! (`closed_circle`), taken for as many half-planes at once as a register holds; for other kernels it is a rule that is
+//! graded to its own a and b. Requires r ≤ R.
 
 use std::f64::consts::PI;
 
 use pulp::{Simd, WithSimd};
 
 use super::cylinder::circle_support;
-use super::half_plane::{AffineMap, HalfPlane, TiltedGap, mirror};
+use super::half_plane::{AffineMap, TiltedGap};
+use super::rules::closed_circle::ClosedCircle;
 use super::rules::integrand::{GROUP, Integrand, LANES};
-use super::rules::ring::{Demand, RingNode, Rings};
+use super::rules::ring::{Demand, RingChunk, RingNode, Rings, nodes};
+use super::rules::rulings::rows_of;
 use super::sphere::unit_or_z;
-use crate::simd::dispatch;
+use super::tube::{COMPONENTS, UP_TO, collect, half_plane, turned};
+use crate::simd::{F64s, Row, WIDTH, dispatch, fold};
 use crate::surface::{GapField, MomentRequest, Moments};
 use crate::tensor::Vec3;
 
@@ -45,27 +50,41 @@ impl Torus {
     pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> AffineMap {
         let gap = TiltedGap::new(field);
         let integrand = Integrand::new(requests);
-        let (sharpest, mildest) = (integrand.sharpest, integrand.mildest);
         let (near, far) = self.outer_gaps(&gap);
-        let outer = Rings::new(&Demand { sharpest, mildest: mildest - 0.5, degree: integrand.order });
-        let rings = Rings::new(&Demand { sharpest, mildest, degree: integrand.order + 1 });
-        let around = Around { rings, cut_ratio: integrand.cut_ratio(0.5) };
         let smallest =
             gap.height - self.major_radius * gap.across - self.minor_radius * libm::hypot(gap.along, gap.across);
-        let cut = integrand.cut(smallest, 1.0);
-        let nodes = outer.nodes(near, far);
-        dispatch(TubeSweep {
+        let (sharpest, mildest, degree) = (integrand.sharpest, integrand.mildest - 0.5, integrand.order);
+        let half_planes = HalfPlanes {
             torus: self,
             gap: &gap,
-            nodes,
-            cut,
-            around: &around,
-            integrand: &integrand,
-            requests,
-            out: &mut *out,
-        });
-        out.iter_mut().for_each(mirror);
+            ring: Rings::new(&Demand { sharpest, mildest, degree }).chunks(near, far),
+            cut: integrand.cut(smallest, 1.0),
+        };
+        let (mut open, mut places, mut count) = ([requests[0]; GROUP], [0; GROUP], 0);
+        for (place, (request, out)) in requests.iter().zip(out.iter_mut()).enumerate() {
+            match ClosedCircle::of(request.kernel) {
+                Some(circle) => {
+                    let sums = dispatch(ClosedSweep { half_planes: &half_planes, circle, order: request.order });
+                    *out = collect(&sums);
+                }
+                None => {
+                    (open[count], places[count]) = (*request, place);
+                    count += 1;
+                }
+            }
+        }
+        if count > 0 {
+            let sums = dispatch(RuleSweep::new(&half_planes, &open[..count]));
+            for (sums, place) in sums.iter().zip(&places[..count]) {
+                out[*place] = collect(sums);
+            }
+        }
         AffineMap::frame(gap.frame)
+    }
+
+    /// R and r.
+    fn radii(&self) -> (f64, f64) {
+        (self.major_radius, self.minor_radius)
     }
 
     /// Gaps in the ratio (c − 1)/(c + 1), c the smaller root cos φ of a² = b².
@@ -77,18 +96,115 @@ impl Torus {
         // A horizontal torus has c = ∞: nothing varies around the axis.
         if c < 1e15 { ((c - 1.0).max(1e-14), c + 1.0) } else { (1.0, 1.0) }
     }
+}
 
-    /// ∫ κ ρ^i z^j dA/dφ around the tube in one half-plane.
+/// The half-planes of a torus at the azimuths of a ring.
+struct HalfPlanes<'a> {
+    torus: &'a Torus,
+    gap: &'a TiltedGap,
+    ring: &'static [RingChunk],
+    /// The gap beyond which half-planes are negligible.
+    cut: f64,
+}
+
+/// The circles around the tube in closed form: compiled for each instruction set.
+struct ClosedSweep<'a> {
+    half_planes: &'a HalfPlanes<'a>,
+    circle: &'a ClosedCircle,
+    order: usize,
+}
+
+impl WithSimd for ClosedSweep<'_> {
+    type Output = [f64; COMPONENTS];
+
     #[inline(always)]
-    fn around_tube(&self, tube: &Tube, integrand: &Integrand, around: &Around) -> [HalfPlane; GROUP] {
-        let mut cosines = [[[0.0; LANES]; 5]; GROUP];
-        let cut = tube.near * around.cut_ratio;
-        for chunk in around.rings.chunks(tube.near, tube.near + 2.0 * tube.reach) {
-            let gaps = chunk.versine.map(|versine| tube.near + tube.reach * versine);
-            if gaps[0] > cut {
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        match self.order {
+            0 => self.sums::<S, 0>(simd),
+            1 => self.sums::<S, 1>(simd),
+            2 => self.sums::<S, 2>(simd),
+            _ => self.sums::<S, 3>(simd),
+        }
+    }
+}
+
+impl ClosedSweep<'_> {
+    #[inline(always)]
+    fn sums<S: Simd, const ORDER: usize>(&self, simd: S) -> [f64; COMPONENTS] {
+        let HalfPlanes { torus, gap, ring, cut } = *self.half_planes;
+        let r = torus.minor_radius;
+        let mut sums = [[0.0; WIDTH]; COMPONENTS];
+        let (zero, one) = (F64s::splat(simd, 0.0), F64s::splat(simd, 1.0));
+        for pair in ring.chunks(WIDTH / LANES) {
+            if self.half_planes.near(pair[0].cos[0]) > cut {
                 break;
             }
-            for (value, sums) in integrand.at_each(&gaps).iter().zip(&mut cosines).take(integrand.count()) {
+            let [weight, cos, _, sin_squared] = rows_of(pair);
+            for register in 0..WIDTH / S::F64_LANES {
+                let load = |row: &Row| F64s::<S>::load(simd, row, register);
+                let (weight, cos, sin_squared) = (load(&weight), load(&cos), load(&sin_squared));
+                let lateral = cos * gap.across;
+                let steepness = (lateral * lateral + gap.along * gap.along).sqrt();
+                let middle = gap.height - lateral * torus.major_radius;
+                let (near, far) = (middle - steepness * r, middle + steepness * r);
+                // The side of the tube that faces the plane, in the half-plane (ρ, z).
+                let slopes = zero.less_than(steepness);
+                let inverse = slopes.select(one / steepness, zero);
+                let facing = (slopes.select(lateral * inverse, one), inverse * -gap.along);
+                let cosines = self.circle.cosines(near, far, ORDER + 1);
+                let sums_of_one = half_plane(torus.radii(), &cosines, facing, ORDER);
+                let turned = turned(&sums_of_one, weight, cos, sin_squared, ORDER);
+                for place in 0..UP_TO[ORDER] {
+                    turned[place].add_to(&mut sums[place], register);
+                }
+            }
+        }
+        let mut folded = [0.0; COMPONENTS];
+        for (sum, row) in folded.iter_mut().zip(&sums) {
+            *sum = fold(row);
+        }
+        folded
+    }
+}
+
+impl HalfPlanes<'_> {
+    /// The smallest gap in the half-plane at this azimuth.
+    fn near(&self, cos: f64) -> f64 {
+        let lateral = self.gap.across * cos;
+        let steepness = (lateral * lateral + self.gap.along * self.gap.along).sqrt();
+        self.gap.height - self.torus.major_radius * lateral - self.torus.minor_radius * steepness
+    }
+}
+
+/// The circles around the tube by a rule, for all kernels together: compiled for each instruction set.
+struct RuleSweep<'a> {
+    half_planes: &'a HalfPlanes<'a>,
+    rings: Rings,
+    /// The gap beyond which a circle is negligible, by its smallest gap.
+    cut_ratio: f64,
+    integrand: Integrand,
+    requests: &'a [MomentRequest],
+}
+
+impl<'a> RuleSweep<'a> {
+    fn new(half_planes: &'a HalfPlanes<'a>, requests: &'a [MomentRequest]) -> Self {
+        let integrand = Integrand::new(requests);
+        let Integrand { sharpest, mildest, order, .. } = integrand;
+        let rings = Rings::new(&Demand { sharpest, mildest, degree: order + 1 });
+        Self { half_planes, rings, cut_ratio: integrand.cut_ratio(0.5), integrand, requests }
+    }
+
+    /// ∫ κ cosᵏθ dθ around the tube for gaps near + reach (1 − cos θ).
+    #[inline(always)]
+    fn cosines(&self, near: f64, reach: f64) -> [[f64; 5]; GROUP] {
+        let mut sums = [[[0.0; LANES]; 5]; GROUP];
+        for chunk in self.rings.chunks(near, near + 2.0 * reach) {
+            let gaps = chunk.versine.map(|versine| near + reach * versine);
+            if gaps[0] > near * self.cut_ratio {
+                break;
+            }
+            let values = self.integrand.at_each(&gaps);
+            for (value, sums) in values.iter().zip(&mut sums).take(self.integrand.count()) {
                 for lane in 0..LANES {
                     let mut term = chunk.weight[lane] * value[lane];
                     for sum in sums.iter_mut() {
@@ -98,98 +214,34 @@ impl Torus {
                 }
             }
         }
-        let mut planes = [HalfPlane::default(); GROUP];
-        for (plane, sums) in planes.iter_mut().zip(&cosines).take(integrand.count()) {
-            *plane = self.half_plane(&sums.map(|lanes| lanes.iter().sum()), tube.facing);
-        }
-        planes
-    }
-
-    /// The sums S_ij = ∫ κ ρ^i z^j r ρ dθ from ∫ κ cosᵏθ dθ, k = 0 … 4.
-    ///
-    /// With e = cos θ f + sin θ f⊥, f = (a, b), odd powers of sin θ cancel in E_pq = ∫ κ e_ρ^p e_z^q dθ.
-    #[inline(always)]
-    fn half_plane(&self, cosines: &[f64; 5], (a, b): (f64, f64)) -> HalfPlane {
-        let [c0, c1, c2, c3, c4] = *cosines;
-        // ∫ κ cosᵖ sin^q.
-        let (t02, t12, t22, t04) = (c0 - c2, c1 - c3, c2 - c4, c0 - 2.0 * c2 + c4);
-        let (aa, ab, bb) = (a * a, a * b, b * b);
-        let (e10, e01) = (a * c1, b * c1);
-        let (e20, e11, e02) = (aa * c2 + bb * t02, ab * (c2 - t02), bb * c2 + aa * t02);
-        let e30 = a * (aa * c3 + 3.0 * bb * t12);
-        let e21 = b * (aa * c3 + (bb - 2.0 * aa) * t12);
-        let e12 = a * (bb * c3 + (aa - 2.0 * bb) * t12);
-        let e03 = b * (bb * c3 + 3.0 * aa * t12);
-        let e40 = aa * aa * c4 + 6.0 * aa * bb * t22 + bb * bb * t04;
-        let e31 = ab * (aa * c4 + 3.0 * (bb - aa) * t22 - bb * t04);
-        let e22 = aa * bb * (c4 + t04 - 4.0 * t22) + (aa * aa + bb * bb) * t22;
-        let e13 = ab * (bb * c4 + 3.0 * (aa - bb) * t22 - aa * t04);
-        let (big, r) = (self.major_radius, self.minor_radius);
-        let (big2, rr) = (big * big, r * r);
-        HalfPlane([
-            r * (big * c0 + r * e10),
-            r * (big2 * c0 + 2.0 * big * r * e10 + rr * e20),
-            rr * (big * e01 + r * e11),
-            r * (big2 * big * c0 + 3.0 * big2 * r * e10 + 3.0 * big * rr * e20 + rr * r * e30),
-            rr * (big2 * e01 + 2.0 * big * r * e11 + rr * e21),
-            rr * r * (big * e02 + r * e12),
-            r * (big2 * big2 * c0 + 4.0 * big2 * big * r * e10 + 6.0 * big2 * rr * e20 + 4.0 * big * rr * r * e30)
-                + r * rr * rr * e40,
-            rr * (big2 * big * e01 + 3.0 * big2 * r * e11 + 3.0 * big * rr * e21 + rr * r * e31),
-            rr * r * (big2 * e02 + 2.0 * big * r * e12 + rr * e22),
-            rr * rr * (big * e03 + r * e13),
-        ])
+        sums.map(|sums| sums.map(|lanes| lanes.iter().sum()))
     }
 }
 
-/// The circles around the tube in all half-planes: compiled for each instruction set.
-struct TubeSweep<'a, Nodes> {
-    torus: &'a Torus,
-    gap: &'a TiltedGap,
-    nodes: Nodes,
-    /// The gap beyond which half-planes are negligible.
-    cut: f64,
-    around: &'a Around,
-    integrand: &'a Integrand,
-    requests: &'a [MomentRequest],
-    out: &'a mut [Moments],
-}
-
-impl<Nodes: Iterator<Item = RingNode>> WithSimd for TubeSweep<'_, Nodes> {
-    type Output = ();
+impl WithSimd for RuleSweep<'_> {
+    type Output = [[f64; COMPONENTS]; GROUP];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { torus, gap, nodes, cut, around, integrand, requests, out } = self;
-        for node in nodes {
-            let lateral = gap.across * node.cos;
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        let HalfPlanes { torus, gap, ring, cut } = *self.half_planes;
+        let mut sums = [[0.0; COMPONENTS]; GROUP];
+        for RingNode { weight, cos, sin_squared, .. } in nodes(ring) {
+            let lateral = gap.across * cos;
             let steepness = libm::hypot(gap.along, lateral);
-            let middle = gap.height - torus.major_radius * lateral;
-            let near = middle - torus.minor_radius * steepness;
+            let near = gap.height - torus.major_radius * lateral - torus.minor_radius * steepness;
             if near > cut {
                 break;
             }
-            // The side of the tube that faces the plane, in the half-plane (ρ, z).
             let facing = if steepness > 0.0 { (lateral / steepness, -gap.along / steepness) } else { (1.0, 0.0) };
-            let tube = Tube { near, reach: torus.minor_radius * steepness, facing };
-            let sums = torus.around_tube(&tube, integrand, around);
-            for ((sum, request), moments) in sums.iter().zip(requests).zip(out.iter_mut()) {
-                sum.turn(node.weight, node.cos, node.sin_squared, request.order, moments);
+            let cosines = self.cosines(near, torus.minor_radius * steepness);
+            for ((sums, cosines), request) in sums.iter_mut().zip(&cosines).zip(self.requests) {
+                let sums_of_one = half_plane(torus.radii(), cosines, facing, request.order);
+                let turned = turned(&sums_of_one, weight, cos, sin_squared, request.order);
+                for (sum, term) in sums.iter_mut().zip(turned).take(UP_TO[request.order.min(3)]) {
+                    *sum += term;
+                }
             }
         }
+        sums
     }
-}
-
-/// What all circles around the tube have in common.
-struct Around {
-    rings: Rings,
-    /// The gap beyond which a circle is negligible, by its smallest gap.
-    cut_ratio: f64,
-}
-
-/// The gap around the tube: near + reach (1 − cos θ), θ from the direction `facing` in (ρ, z).
-struct Tube {
-    near: f64,
-    reach: f64,
-    facing: (f64, f64),
 }

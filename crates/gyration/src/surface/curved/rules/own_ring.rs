@@ -15,7 +15,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use pulp::{Simd, WithSimd};
 
 use super::integrand::{LANES, Lane};
-use super::ring::{Demand, RingChunk, RingNode, frequency, mean, sine_and_cosine};
+use super::ring::{Demand, RingChunk, RingNode, frequency, mean, nodes, sine_and_cosine};
 use crate::simd::dispatch;
 
 /// Room for a rule, in chunks; a finer one than this is not made.
@@ -70,15 +70,7 @@ impl OwnRing {
     /// The same rule, node by node.
     #[inline(always)]
     pub(crate) fn nodes(&self) -> impl Iterator<Item = RingNode> + '_ {
-        self.chunks().iter().flat_map(|chunk| {
-            let node = |lane: usize| RingNode {
-                weight: chunk.weight[lane],
-                cos: chunk.cos[lane],
-                versine: chunk.versine[lane],
-                sin_squared: chunk.sin_squared[lane],
-            };
-            (0..LANES).map(node).filter(|node| node.weight != 0.0)
-        })
+        nodes(self.chunks())
     }
 }
 

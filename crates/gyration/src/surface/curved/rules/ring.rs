@@ -36,6 +36,20 @@ pub(crate) struct RingChunk {
     pub(crate) sin_squared: Lane,
 }
 
+/// The points of these chunks, one by one.
+#[inline(always)]
+pub(crate) fn nodes(chunks: &[RingChunk]) -> impl Iterator<Item = RingNode> + '_ {
+    chunks.iter().flat_map(|chunk| {
+        let node = |lane: usize| RingNode {
+            weight: chunk.weight[lane],
+            cos: chunk.cos[lane],
+            versine: chunk.versine[lane],
+            sin_squared: chunk.sin_squared[lane],
+        };
+        (0..LANES).map(node).filter(|node| node.weight != 0.0)
+    })
+}
+
 /// The rules that meet one demand, for every ratio of the gaps.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rings {
@@ -85,19 +99,6 @@ impl Rings {
     pub(crate) fn chunks(&self, near: f64, far: f64) -> &'static [RingChunk] {
         let level = libm::log2(FIRST * far / near).ceil().max(0.0) as usize;
         &self.rows[level.min(LEVELS - 1)]
-    }
-
-    /// The same rule, node by node.
-    pub(crate) fn nodes(&self, near: f64, far: f64) -> impl Iterator<Item = RingNode> + use<> {
-        self.chunks(near, far).iter().flat_map(|chunk| {
-            let node = |lane: usize| RingNode {
-                weight: chunk.weight[lane],
-                cos: chunk.cos[lane],
-                versine: chunk.versine[lane],
-                sin_squared: chunk.sin_squared[lane],
-            };
-            (0..LANES).map(node).filter(|node| node.weight != 0.0)
-        })
     }
 }
 
@@ -198,7 +199,7 @@ mod tests {
         for near in [1e-8, 1e-4, 0.01, 0.3, 0.9, 1.0] {
             for nu in 1..=3 {
                 let demand = Demand { sharpest: f64::from(nu), mildest: f64::from(nu), degree: 0 };
-                let nodes = Rings::new(&demand).nodes(near, 1.0);
+                let nodes = nodes(Rings::new(&demand).chunks(near, 1.0));
                 let sum: f64 = nodes.map(|n| n.weight * (near + 0.5 * (1.0 - near) * n.versine).powi(-nu)).sum();
                 worst = worst.max((sum / exact(near, 1.0, nu) - 1.0).abs());
             }
@@ -218,11 +219,11 @@ mod tests {
                             let kernel: f64 = (near + 0.5 * (1.0 - near) * n.versine).powf(-nu);
                             n.weight * kernel * n.cos.powi(degree)
                         };
-                        Rings::new(demand).nodes(near, 1.0).map(term).sum()
+                        nodes(Rings::new(demand).chunks(near, 1.0)).map(term).sum()
                     };
                     let demand = Demand { sharpest: nu, mildest: nu, degree: degree as usize };
                     let fine = Demand { sharpest: 60.0, mildest: nu, degree: 20 };
-                    let scale = Rings::new(&fine).nodes(near, 1.0);
+                    let scale = nodes(Rings::new(&fine).chunks(near, 1.0));
                     let scale: f64 = scale.map(|n| n.weight * (near + 0.5 * (1.0 - near) * n.versine).powf(-nu)).sum();
                     let error = (sum(&demand) - sum(&fine)).abs() / scale;
                     worst = worst.max(error);
