@@ -16,7 +16,7 @@
 //! |---|---|---|
 //! | facets | `facets/sums` | the same, areas deformed; with normals `facets/oriented` |
 //! | sphere | `sphere`: closed form | `deformed/ellipsoid`, with equal axes |
-//! | ellipsoid | `ellipsoid`: `features` and `parallels` | `deformed/ellipsoid`: the same rule |
+//! | ellipsoid | `ellipsoid`: `features`, `polar`, `parallels` | `deformed/ellipsoid`: the same rule |
 //! | hemisphere | `hemisphere`: zone in closed form, arcs `graded` | `deformed/hemisphere`: `graded`, `points` |
 //! | wall | `cylinder`, `cone`: `rulings` around a `ring` | `deformed/walls`: `weighted_rulings` around an `own_ring` |
 //! | disk | `disk`: chords around a `ring` | the same times one weight |

@@ -11,9 +11,8 @@
 use super::half_plane::AffineMap;
 use super::rules::features::Features;
 use super::rules::integrand::Integrand;
-use super::rules::parallels::{AreaElement, ParallelSums, ParallelSweep};
+use super::rules::parallels::{AreaElement, ParallelSweep};
 use super::sphere::frame_along;
-use crate::simd::dispatch;
 use crate::surface::{GapField, MomentRequest, Moments};
 use crate::tensor::{Mat3, Vec3};
 
@@ -52,12 +51,8 @@ impl Ellipsoid {
         let element = AreaElement::new(&cofactor, &frame);
         let integrand = Integrand::new(requests);
         let features = Features::new(near, reach, &cofactor, &frame.column(2).into(), &integrand);
-        let mut sums = ParallelSums::ZERO;
         let (gap, element, integrand) = ((near, reach), &element, &integrand);
-        dispatch(ParallelSweep { nodes: features.nodes(), element, gap, integrand, factors: &[], sums: &mut sums });
-        for (place, (request, moments)) in requests.iter().zip(out).enumerate() {
-            sums.collect(place, request.order, moments);
-        }
+        ParallelSweep { features: &features, element, gap, integrand, factors: &[] }.collect(requests, out);
         AffineMap::frame(Mat3::from_diagonal(a) * frame)
     }
 }

@@ -9,11 +9,10 @@
 use super::super::half_plane::AffineMap;
 use super::super::rules::features::Features;
 use super::super::rules::integrand::Integrand;
-use super::super::rules::parallels::{AreaElement, ParallelSums, ParallelSweep};
+use super::super::rules::parallels::{AreaElement, ParallelSweep};
 use super::super::rules::weight::{Deformed, Weighted, extra_digits};
 use super::super::sphere::frame_along;
 use super::super::{Ellipsoid, Sphere};
-use crate::simd::dispatch;
 use crate::surface::MomentRequest;
 use crate::tensor::{Mat3, Vec3};
 
@@ -41,9 +40,7 @@ impl Ellipsoid {
         let (gap, element, integrand) = ((near, reach), &element, &integrand);
         for (out, factors) in out.iter_mut().zip(deformed.weights.factors) {
             let factors = &factors.map(|row| vectors.row(row).transpose());
-            let mut sums = ParallelSums::ZERO;
-            dispatch(ParallelSweep { nodes: features.nodes(), element, gap, integrand, factors, sums: &mut sums });
-            sums.collect_all(requests, out);
+            ParallelSweep { features: &features, element, gap, integrand, factors }.collect(requests, out);
         }
         AffineMap::frame(Mat3::from_diagonal(a) * frame)
     }

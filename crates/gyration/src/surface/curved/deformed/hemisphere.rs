@@ -14,8 +14,8 @@ use super::super::half_plane::{AffineMap, TiltedGap};
 use super::super::rules::features::{Dip, dips};
 use super::super::rules::graded::{GradedInterval, Singularity, gauss_legendre};
 use super::super::rules::integrand::Integrand;
-use super::super::rules::parallels::{AreaElement, ParallelSums};
-use super::super::rules::points::PointSums;
+use super::super::rules::parallels::AreaElement;
+use super::super::rules::points::{KernelSums, PointSums};
 use super::super::rules::weight::{Deformed, Weighted, Weights, extra_digits};
 use super::ellipsoid::principal_axes;
 use crate::simd::dispatch;
@@ -82,10 +82,10 @@ struct HemisphereSweep<'a, const N: usize, const W: usize> {
 }
 
 impl<const N: usize, const W: usize> WithSimd for HemisphereSweep<'_, N, W> {
-    type Output = [ParallelSums; W];
+    type Output = [KernelSums; W];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> [ParallelSums; W] {
+    fn with_simd<S: Simd>(self, _: S) -> [KernelSums; W] {
         let mut sums = PointSums::new(self.integrand);
         self.whole_parallels(&mut sums);
         self.arcs(&mut sums);

@@ -12,8 +12,7 @@ use super::super::Torus;
 use super::super::half_plane::{AffineMap, TiltedGap};
 use super::super::rules::integrand::Integrand;
 use super::super::rules::own_ring::{Dips, OwnRing, WEIGHT_DIGITS};
-use super::super::rules::parallels::ParallelSums;
-use super::super::rules::points::PointSums;
+use super::super::rules::points::{KernelSums, PointSums};
 use super::super::rules::ring::Demand;
 use super::super::rules::weight::{Deformed, Weighted, Weights, extra_digits};
 use super::ellipsoid::principal_axes;
@@ -61,10 +60,10 @@ struct TorusSweep<'a, const N: usize, const W: usize> {
 }
 
 impl<const N: usize, const W: usize> WithSimd for TorusSweep<'_, N, W> {
-    type Output = [ParallelSums; W];
+    type Output = [KernelSums; W];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> [ParallelSums; W] {
+    fn with_simd<S: Simd>(self, _: S) -> [KernelSums; W] {
         let (torus, gap, integrand) = (self.torus, self.gap, self.integrand);
         let (sharpest, mildest) = (integrand.sharpest, integrand.mildest);
         let smallest =

@@ -4,26 +4,16 @@
 //! is analytic, but singular close to real θ where the parallel touches the place where |B s| dips: the ends ±e_i of
 //! the longest axis (B_i smallest), at cos θ = |f_i|, and the great circle normal to the shortest axis (B_j largest),
 //! at sin θ = |f_j|. The distance of the singularity is about (|B s| in the dip)/(largest B). The gap is (near/δ)(δ +
-//! x): in y = ln(1 + x/δ) every power of it is an exponential, which Gauss's rule integrates without a singularity.
-//! Only 0 ≤ x ≤ 1 is covered: the other half mirrors it. Where dips are so narrow that one rule would need too many
-//! points, the range is cut at them and graded to each.
+//! x), for which `polar` keeps rules, of depths δ a little smaller. Only 0 ≤ x ≤ 1 is covered: the other half mirrors
+//! it. Where dips are so narrow that one rule would need too many points, the range is cut at them and graded to each.
 
 use std::f64::consts::{FRAC_PI_2, LN_2};
 
-use super::graded::{GradedInterval, Singularity, gauss_legendre};
+use super::graded::{GradedInterval, Singularity};
 use super::integrand::Integrand;
+use super::polar::{Depth, LARGEST_DEPTH, MOST_ROWS, ParallelRow, PolarNode};
+use crate::simd::WIDTH;
 use crate::tensor::Vec3;
-
-/// A parallel of the rule.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct PolarNode {
-    /// 1 − cos θ.
-    pub(crate) versine: f64,
-    /// Weight in x, area 2π on the half sphere.
-    pub(crate) weight: f64,
-    /// The e-folds by which the parallel weighs less than the lowest part of the surface.
-    pub(crate) spared: f64,
-}
 
 /// A place θ where |B s| dips to `share` of its largest value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,14 +27,12 @@ pub(crate) struct Dip {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Features {
     dips: [Dip; MOST_DIPS],
-    /// δ, the smallest gap by the rise of the gap from the lowest point to x = 1.
-    depth: f64,
-    /// ln(1 + 1/δ).
-    span: f64,
+    /// δ, at most the smallest gap by the rise of the gap from the lowest point to x = 1.
+    depth: &'static Depth,
     sharpest: f64,
     mildest: f64,
-    /// Parallels weigh as (d/near)^−mildness, at most e^excess times more where |B s| is larger than at the lowest
-    /// point.
+    /// Parallels weigh as (1 + x/δ)^−mildness, at most e^excess times more where |B s| is larger than at the lowest
+    /// point, and since δ is smaller than the gap's.
     mildness: f64,
     excess: f64,
     /// Further digits for weights that are harder to resolve than |B s|.
@@ -65,13 +53,10 @@ const GAP_DIGITS: f64 = 25.0;
 const NEGLIGIBLE: f64 = 28.0;
 
 /// Where one rule would need more points than this, the range is cut at the dips.
-const MOST_POINTS: f64 = 56.0;
+const MOST_POINTS: f64 = (MOST_ROWS * WIDTH) as f64;
 
 /// Dips narrower than this get intervals of their own; wider ones only more points.
 const NARROW: f64 = 0.25;
-
-/// Beyond this the powers of the gap are smooth in x itself.
-const LARGEST_DEPTH: f64 = 10.0;
 
 /// The dips for the cofactor B and the lowest direction f, both in the axes of B.
 pub(crate) fn dips(cofactor: &Vec3, lowest: &Vec3) -> [Dip; MOST_DIPS] {
@@ -99,18 +84,17 @@ impl Dip {
 impl Features {
     /// The features for the smallest gap `near`, which rises by `reach` to x = 1, cofactor B and lowest direction f.
     pub(crate) fn new(near: f64, reach: f64, cofactor: &Vec3, lowest: &Vec3, integrand: &Integrand) -> Self {
-        // A gap within rounding has no known size.
-        let depth = (near / reach).clamp(1e-15, LARGEST_DEPTH);
         let largest = cofactor.max();
         let mildness = (integrand.mildest - 1.0).max(0.0);
+        let dipped = largest * mildness.max(1.0) / cofactor.component_mul(lowest).norm();
         Self {
             dips: dips(cofactor, lowest),
-            depth,
-            span: libm::log1p(1.0 / depth),
+            // A gap within rounding has no known size.
+            depth: Depth::at_most((near / reach).clamp(1e-15, LARGEST_DEPTH)),
             sharpest: integrand.sharpest,
             mildest: integrand.mildest,
             mildness,
-            excess: libm::log(largest * mildness.max(1.0) / cofactor.component_mul(lowest).norm()),
+            excess: libm::log(dipped) + 0.5 * LN_2 * mildness,
             extra: 0.0,
         }
     }
@@ -120,12 +104,15 @@ impl Features {
         Self { extra, ..self }
     }
 
-    /// The parallels from the lowest point to θ = ½π, as far as they count.
-    pub(crate) fn nodes(&self) -> impl Iterator<Item = PolarNode> + '_ {
+    /// The parallels from the lowest point to θ = ½π, as far as they count, and the e-folds by which the heaviest of a
+    /// row weighs less than the lowest part of the surface.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = (ParallelRow, f64)> + '_ {
         let points = self.points();
-        let single = (points <= MOST_POINTS).then(|| self.logarithmic(points));
-        let cut = (points > MOST_POINTS).then(|| self.graded());
-        single.into_iter().flatten().chain(cut.into_iter().flatten()).filter(|node| node.spared < NEGLIGIBLE)
+        let kept = if points <= MOST_POINTS { self.depth.rule(points) } else { &[] };
+        let graded = (points > MOST_POINTS).then(|| self.graded());
+        let mut counting = graded.into_iter().flatten().filter(|node| self.spared(node.growth) < NEGLIGIBLE);
+        let rows = kept.iter().copied().chain(std::iter::from_fn(move || ParallelRow::gather(&mut counting)));
+        rows.map(|row| (row, self.spared(row.growth))).take_while(|(_, spared)| *spared < NEGLIGIBLE)
     }
 
     /// Points of a rule in y that resolves the exponentials and both dips.
@@ -136,37 +123,27 @@ impl Features {
     fn points(&self) -> f64 {
         /// For the smooth factors beside the singularities.
         const SPARE: f64 = 3.0;
+        let (depth, span) = (self.depth.depth, self.depth.span);
         let growth = (self.sharpest - 1.0).max(4.0 - self.mildest).max(3.0);
-        let exponentials = 7.0 + 3.0 * (0.5 * growth * self.span).sqrt();
+        let exponentials = 7.0 + 3.0 * (0.5 * growth * span).sqrt();
         // The far half sees the zero of the gap at x = 2 + δ, beyond the end.
-        let beyond = 2.0 * libm::acosh(1.0 + 2.0 * LN_2 / self.span);
-        let far = (DIGITS + self.sharpest - self.mildness * self.span).max(3.0) / beyond + SPARE;
+        let beyond = 2.0 * libm::acosh(1.0 + 2.0 * LN_2 / span);
+        let far = (DIGITS + self.sharpest - self.mildness * span).max(3.0) / beyond + SPARE;
         let mut points = exponentials.max(far);
         for dip in self.dips.iter().filter(|dip| dip.share < 1.0 - 1e-9) {
             let hyperbolic = 1.0 / (1.0 - dip.share * dip.share).sqrt();
-            let imaginary = dip.sin * dip.share * hyperbolic / self.depth;
+            let imaginary = dip.sin * dip.share * hyperbolic / depth;
             for cos in [dip.cos, -dip.cos] {
-                let real = 1.0 + (1.0 - cos * hyperbolic) / self.depth;
+                let real = 1.0 + (1.0 - cos * hyperbolic) / depth;
                 let log = 0.5 * libm::log(real * real + imaginary * imaginary);
-                let (t, height) = (2.0 * log / self.span - 1.0, 2.0 * libm::atan2(imaginary, real) / self.span);
-                let s = 0.5 * (libm::hypot(t - 1.0, height) + libm::hypot(t + 1.0, height));
+                let (t, height) = (2.0 * log / span - 1.0, 2.0 * libm::atan2(imaginary, real) / span);
+                let s = 0.5 * (length(t - 1.0, height) + length(t + 1.0, height));
                 let rate = 2.0 * libm::log(s + (s * s - 1.0).max(0.0).sqrt());
                 let spared = (self.mildness * log - self.excess).max(0.0);
                 points = points.max((DIGITS + self.extra - spared).max(3.0) / rate + SPARE);
             }
         }
         points.ceil()
-    }
-
-    /// x = δ(e^y − 1), y by Gauss.
-    fn logarithmic(&self, points: f64) -> impl Iterator<Item = PolarNode> + '_ {
-        let half = 0.5 * self.span;
-        gauss_legendre(points as usize).iter().map(move |node| {
-            let y = half * (1.0 + node.at);
-            let growth = libm::exp(y);
-            let spared = (self.mildness * y - self.excess).max(0.0);
-            PolarNode { versine: self.depth * (growth - 1.0), weight: self.depth * growth * half * node.weight, spared }
-        })
     }
 
     /// Intervals in θ between the narrow dips, each graded to both of its ends.
@@ -190,7 +167,7 @@ impl Features {
         halves.flat_map(move |((left, right), dense_left)| {
             let (from, to) = if dense_left { (left, right) } else { (right, left) };
             let interval = GradedInterval { from, to, width: clearance(&singularities, from) };
-            let spared = self.spared(left);
+            let spared = self.spared(self.growth(left));
             let resolved = singularities.map(|s| Singularity { digits: (s.digits - spared).max(4.0), ..s });
             interval.nodes(interval.points(&resolved)).map(|node| self.polar(node.at, node.weight))
         })
@@ -200,22 +177,33 @@ impl Features {
     fn singularities(&self) -> [Singularity; 1 + 2 * MOST_DIPS] {
         let gap = Singularity {
             at: 0.0,
-            distance: libm::acosh(1.0 + self.depth),
+            distance: libm::acosh(1.0 + self.depth.depth),
             digits: GAP_DIGITS + 1.6 * self.sharpest.max(0.0),
         };
         let [a, b] = self.dips.map(|dip| dip.singularities(GRADED_DIGITS + self.extra));
         [gap, a[0], a[1], b[0], b[1]]
     }
 
-    fn spared(&self, theta: f64) -> f64 {
+    /// The e-folds by which a parallel weighs less than the lowest part of the surface.
+    fn spared(&self, growth: f64) -> f64 {
+        (self.mildness * growth - self.excess).max(0.0)
+    }
+
+    /// y = ln(1 + x/δ).
+    fn growth(&self, theta: f64) -> f64 {
         let half = libm::sin(0.5 * theta);
-        (self.mildness * libm::log1p(2.0 * half * half / self.depth) - self.excess).max(0.0)
+        libm::log1p(2.0 * half * half / self.depth.depth)
     }
 
     fn polar(&self, theta: f64, weight: f64) -> PolarNode {
         let (sin, cos) = libm::sincos(0.5 * theta);
-        PolarNode { versine: 2.0 * sin * sin, weight: weight * 2.0 * sin * cos, spared: self.spared(theta) }
+        PolarNode { versine: 2.0 * sin * sin, weight: weight * 2.0 * sin * cos, growth: self.growth(theta) }
     }
+}
+
+/// |(x, y)| of numbers whose squares are in range.
+fn length(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
 }
 
 /// The distance of the nearest singularity from θ.

@@ -140,16 +140,6 @@ fn product<const N: usize>(squarings: &[[f64; N]; 4], whole: u32, start: [f64; N
     value
 }
 
-/// Adds value × component to the sums, lane by lane.
-#[inline(always)]
-pub(crate) fn accumulate(value: &Lane, components: &[Lane], sums: &mut [Lane]) {
-    for (sum, component) in sums.iter_mut().zip(components) {
-        for lane in 0..LANES {
-            sum[lane] += value[lane] * component[lane];
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

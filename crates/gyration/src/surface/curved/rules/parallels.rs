@@ -1,4 +1,4 @@
-//! Moments over parallels of an ellipsoid, [`LANES`] of them at a time.
+//! Moments over parallels of an ellipsoid, a row of them at a time.
 //!
 //! On the parallel s = z f + r (cos φ e₁ + sin φ e₂), z = cos θ, r = sin θ, the squared area element is a quadratic
 //! form,
@@ -13,10 +13,12 @@ use std::f64::consts::PI;
 
 use pulp::{Simd, WithSimd};
 
-use super::features::PolarNode;
-use super::integrand::{GROUP, Integrand, LANES, Lane, accumulate};
-use super::weight::{base, extra_digits};
-use crate::surface::Moments;
+use super::features::Features;
+use super::integrand::{GROUP, Integrand};
+use super::polar::ParallelRow;
+use super::weight::{bases, extra_digits};
+use crate::simd::{F64s, Row, WIDTH, dispatch, fold};
+use crate::surface::{MomentRequest, Moments};
 use crate::tensor::{Mat3, Vec3};
 
 /// The e-folds of e^(−Nη) asked for; the zeros of |B s|² are branch points, whose error is 1e-3 of that.
@@ -26,8 +28,12 @@ const AZIMUTH_DIGITS: f64 = 20.0;
 const FEWEST_PAIRS: f64 = 2.0;
 const MOST_PAIRS: f64 = 4096.0;
 
-/// Numbers of components up to an order: of 1, x … z, xx … zz, xxx … zzz.
-const COMPONENTS: [usize; 4] = [1, 4, 10, 20];
+/// Components of 1, x … z, xx … zz, and of xxx … zzz beside them.
+const TO_SECOND: usize = 10;
+pub(crate) const TO_THIRD: usize = 20;
+
+/// Kernels for which there is room without third moments.
+const FEW: usize = 3;
 
 /// |B s|² as a quadratic form in the frame (e₁, e₂, f).
 #[derive(Debug, Clone, Copy)]
@@ -77,205 +83,173 @@ impl AreaElement {
     }
 }
 
-/// The element and its factors.
-struct Weighted<'a, const N: usize> {
-    element: &'a AreaElement,
-    factors: &'a [Vec3; N],
-}
-
-/// A group of neighbouring parallels; those that fill the last group have no weight.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct ParallelGroup {
-    versine: Lane,
-    cos: Lane,
-    sin: Lane,
-    weight: Lane,
-    /// The e-folds by which the heaviest parallel weighs less than the lowest part of the surface.
-    spared: f64,
-}
-
-impl ParallelGroup {
-    /// Gathers at most [`LANES`] parallels; none if there are none.
-    pub(crate) fn gather(nodes: &mut impl Iterator<Item = PolarNode>) -> Option<Self> {
-        let first = nodes.next()?;
-        let mut group = Self { spared: first.spared, ..Self::default() };
-        group.set(0, &first, first.weight);
-        let mut last = first;
-        for lane in 1..LANES {
-            let next = nodes.next();
-            let weight = next.as_ref().map_or(0.0, |node| node.weight);
-            last = next.unwrap_or(last);
-            group.spared = group.spared.min(last.spared);
-            group.set(lane, &last, weight);
-        }
-        Some(group)
-    }
-
-    fn set(&mut self, lane: usize, node: &PolarNode, weight: f64) {
-        self.versine[lane] = node.versine;
-        self.cos[lane] = 1.0 - node.versine;
-        self.sin[lane] = (node.versine * (2.0 - node.versine)).max(0.0).sqrt();
-        self.weight[lane] = weight;
-    }
-
-    /// Pairs of opposite points that resolve |B s| around these parallels.
-    #[inline(always)]
-    fn pairs<const N: usize>(&self, element: &AreaElement, order: usize) -> f64 {
-        // Parallels that count less need fewer digits; the nearest zero is that of the largest circle.
-        let z = self.cos.iter().fold(1.0, |least: f64, z| least.min(*z));
-        let decay = element.decay(z * z, 1.0 - z * z).min(10.0);
-        let digits = AZIMUTH_DIGITS + extra_digits::<N>() - self.spared;
-        let points = digits.max(3.0) / decay + (order + N) as f64 + 1.0;
-        (0.5 * points).ceil().clamp(FEWEST_PAIRS, MOST_PAIRS)
-    }
-
-    /// Adds κ times the moments of s over these parallels and over their images at π − θ, weighted with the element and
-    /// its factors.
-    ///
-    /// The gap is near + reach · versine.
-    #[inline(always)]
-    fn add<const N: usize>(
-        &self,
-        of: &Weighted<N>,
-        (near, reach): (f64, f64),
-        integrand: &Integrand,
-        sums: &mut ParallelSums,
-    ) {
-        let pairs = self.pairs::<N>(of.element, integrand.order);
-        let third = integrand.order == 3;
-        let circle = if third { self.around::<true, N>(of, pairs) } else { self.around::<false, N>(of, pairs) };
-        let components = self.components(&circle, PI / pairs);
-        let mut gaps = [0.0; 2 * LANES];
-        for lane in 0..LANES {
-            gaps[lane] = near + reach * self.versine[lane];
-            gaps[LANES + lane] = near + reach * (1.0 + self.cos[lane]);
-        }
-        let values = integrand.at_each(&gaps);
-        for (value, sums) in values.iter().zip(&mut sums.lanes).take(integrand.count()) {
-            let (mut even, mut odd) = ([0.0; LANES], [0.0; LANES]);
-            for lane in 0..LANES {
-                even[lane] = value[lane] + value[LANES + lane];
-                odd[lane] = value[lane] - value[LANES + lane];
-            }
-            accumulate(&even, &components[..1], &mut sums[..1]);
-            accumulate(&odd, &components[1..4], &mut sums[1..4]);
-            accumulate(&even, &components[4..10], &mut sums[4..10]);
-            if third {
-                accumulate(&odd, &components[10..], &mut sums[10..]);
-            }
-        }
-    }
-
-    /// The sums of the weight times 1, c, s, c², cs, and c³, c²s if `THIRD`, over pairs of opposite points.
-    #[inline(always)]
-    fn around<const THIRD: bool, const N: usize>(&self, of: &Weighted<N>, pairs: f64) -> [Lane; 7] {
-        let q = &of.element.form;
-        let [mut constant, mut square, mut mixed] = [[0.0; LANES]; 3];
-        let [mut along_c, mut along_s] = [[0.0; LANES]; 2];
-        for lane in 0..LANES {
-            let (z, r) = (self.cos[lane], self.sin[lane]);
-            constant[lane] = z * z * q.m33 + r * r * q.m22;
-            square[lane] = r * r * (q.m11 - q.m22);
-            mixed[lane] = 2.0 * r * r * q.m12;
-            along_c[lane] = 2.0 * z * r * q.m13;
-            along_s[lane] = 2.0 * z * r * q.m23;
-        }
-        let (step_s, step_c) = libm::sincos(PI / pairs);
-        let (mut c, mut s) = (1.0, 0.0);
-        let mut sums = [[0.0; LANES]; 7];
-        for _ in 0..pairs as usize {
-            let (cc, cs) = (c * c, c * s);
-            for lane in 0..LANES {
-                let even = constant[lane] + square[lane] * cc + mixed[lane] * cs;
-                let odd = along_c[lane] * c + along_s[lane] * s;
-                let (mut here, mut opposite) = (base::<N>(even + odd), base::<N>(even - odd));
-                for factor in of.factors {
-                    let (along, across) = (self.cos[lane] * factor.z, self.sin[lane] * (c * factor.x + s * factor.y));
-                    (here, opposite) = (here * (along + across), opposite * (along - across));
-                }
-                let (w, v) = (here + opposite, here - opposite);
-                sums[0][lane] += w;
-                sums[1][lane] += v * c;
-                sums[2][lane] += v * s;
-                sums[3][lane] += w * cc;
-                sums[4][lane] += w * cs;
-                if THIRD {
-                    sums[5][lane] += v * (c * cc);
-                    sums[6][lane] += v * (s * cc);
-                }
-            }
-            (c, s) = (c * step_c - s * step_s, s * step_c + c * step_s);
-        }
-        sums
-    }
-
-    /// The components of s, s⊗s, s⊗s⊗s from the sums of `around`, in the order of [`COMPONENTS`].
-    #[inline(always)]
-    fn components(&self, sums: &[Lane; 7], step: f64) -> [Lane; 20] {
-        let mut out = [[0.0; LANES]; 20];
-        for lane in 0..LANES {
-            let (z, r) = (self.cos[lane], self.sin[lane]);
-            let w = self.weight[lane] * step;
-            let [w1, w2, w3] = [w * r, w * r * r, w * r * r * r];
-            let [one, c, s, cc, cs, ccc, ccs] = sums.map(|lanes| lanes[lane]);
-            let (zeroth, x, y) = (w * one, w1 * c, w1 * s);
-            let (xx, xy, yy) = (w2 * cc, w2 * cs, w2 * (one - cc));
-            let (xxx, xxy, xyy, yyy) = (w3 * ccc, w3 * ccs, w3 * (c - ccc), w3 * (s - ccs));
-            let zz = z * z;
-            let all = [
-                [zeroth, x, y, z * zeroth, xx, xy, z * x, yy, z * y, zz * zeroth],
-                [xxx, xxy, z * xx, xyy, z * xy, zz * x, yyy, z * yy, zz * y, z * zz * zeroth],
-            ];
-            for (out, value) in out.iter_mut().zip(all.as_flattened()) {
-                out[lane] = *value;
-            }
-        }
-        out
-    }
-}
-
-/// All parallels that `nodes` tells of, the gap being gap.0 + gap.1 · versine: compiled for each instruction set.
-pub(crate) struct ParallelSweep<'a, Nodes, const N: usize> {
-    pub(crate) nodes: Nodes,
+/// All parallels of a rule, the gap being gap.0 + gap.1 · versine.
+#[derive(Clone, Copy)]
+pub(crate) struct ParallelSweep<'a, const N: usize> {
+    pub(crate) features: &'a Features,
     pub(crate) element: &'a AreaElement,
     pub(crate) gap: (f64, f64),
     pub(crate) integrand: &'a Integrand,
     /// The linear forms in (e₁, e₂, f) with which the element is multiplied and, as often, divided by its length.
     pub(crate) factors: &'a [Vec3; N],
-    pub(crate) sums: &'a mut ParallelSums,
 }
 
-impl<Nodes: Iterator<Item = PolarNode>, const N: usize> WithSimd for ParallelSweep<'_, Nodes, N> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(mut self, _: S) {
-        let of = Weighted { element: self.element, factors: self.factors };
-        while let Some(parallels) = ParallelGroup::gather(&mut self.nodes) {
-            parallels.add(&of, self.gap, self.integrand, self.sums);
+impl<const N: usize> ParallelSweep<'_, N> {
+    /// Sets the moments of s that are asked for.
+    pub(crate) fn collect(&self, requests: &[MomentRequest], out: &mut [Moments]) {
+        if self.integrand.order < 3 && requests.len() <= FEW {
+            collect(&dispatch(Summed::<N, TO_SECOND, FEW>(*self)), requests, out);
+        } else {
+            collect(&dispatch(Summed::<N, TO_THIRD, GROUP>(*self)), requests, out);
         }
     }
 }
 
-/// The moments of each kernel, lane by lane.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ParallelSums {
-    pub(crate) lanes: [[Lane; 20]; GROUP],
+/// Sums of C components for each of K kernels: compiled for each instruction set.
+struct Summed<'a, const N: usize, const C: usize, const K: usize>(ParallelSweep<'a, N>);
+
+impl<const N: usize, const C: usize, const K: usize> WithSimd for Summed<'_, N, C, K> {
+    type Output = [[f64; C]; K];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Self(sweep) = self;
+        let mut sums = [[[0.0; WIDTH]; C]; K];
+        for (row, spared) in sweep.features.rows() {
+            sweep.add::<S, C>(simd, &row, spared, &mut sums);
+        }
+        let mut folded = [[0.0; C]; K];
+        for (folded, sums) in folded.iter_mut().zip(&sums).take(sweep.integrand.count()) {
+            for (folded, sum) in folded.iter_mut().zip(sums) {
+                *folded = fold(sum);
+            }
+        }
+        folded
+    }
 }
 
-impl ParallelSums {
-    pub(crate) const ZERO: Self = Self { lanes: [[[0.0; LANES]; 20]; GROUP] };
-
-    /// The moments of the `place`-th kernel up to `order`.
-    pub(crate) fn collect(&self, place: usize, order: usize, out: &mut Moments) {
-        let mut sums = [0.0; 20];
-        for (sum, lanes) in sums.iter_mut().zip(&self.lanes[place]).take(COMPONENTS[order.min(3)]) {
-            *sum = lanes.iter().sum();
+impl<const N: usize> ParallelSweep<'_, N> {
+    /// Adds κ times the moments of s over these parallels and over their images at π − θ, weighted with the element and
+    /// its factors.
+    #[inline(always)]
+    fn add<S: Simd, const C: usize>(&self, simd: S, row: &ParallelRow, spared: f64, sums: &mut [[Row; C]]) {
+        let pairs = self.pairs(row, spared);
+        let (step_sin, step_cos) = libm::sincos(PI / pairs);
+        let (mut near, mut far) = ([0.0; WIDTH], [0.0; WIDTH]);
+        for lane in 0..WIDTH {
+            near[lane] = self.gap.0 + self.gap.1 * row.versine[lane];
+            far[lane] = self.gap.0 + self.gap.1 * (1.0 + row.cos[lane]);
         }
-        let [zeroth, x, y, z, xx, xy, xz, yy, yz, zz] = std::array::from_fn(|k| sums[k]);
+        let (near, far) = (self.integrand.at_each(&near), self.integrand.at_each(&far));
+        for register in 0..WIDTH / S::F64_LANES {
+            let load = |row: &Row| F64s::<S>::load(simd, row, register);
+            let (cos, sin) = (load(&row.cos), load(&row.sin));
+            let circle = self.around::<S, C>(cos, sin, pairs as usize, (step_sin, step_cos));
+            let components = components::<S, C>(&circle, (cos, sin), load(&row.weight) * (PI / pairs));
+            for ((near, far), sums) in near.iter().zip(&far).zip(sums.iter_mut()).take(self.integrand.count()) {
+                let (near, far) = (load(near), load(far));
+                let (even, odd) = (near + far, near - far);
+                (even * components[0]).add_to(&mut sums[0], register);
+                for place in 1..4 {
+                    (odd * components[place]).add_to(&mut sums[place], register);
+                }
+                for place in 4..TO_SECOND {
+                    (even * components[place]).add_to(&mut sums[place], register);
+                }
+                for place in TO_SECOND..C {
+                    (odd * components[place]).add_to(&mut sums[place], register);
+                }
+            }
+        }
+    }
+
+    /// Pairs of opposite points that resolve |B s| around these parallels.
+    #[inline(always)]
+    fn pairs(&self, row: &ParallelRow, spared: f64) -> f64 {
+        // Parallels that count less need fewer digits; the nearest zero is that of the largest circle.
+        let z = row.least_cos;
+        let decay = self.element.decay(z * z, 1.0 - z * z).min(10.0);
+        let digits = AZIMUTH_DIGITS + extra_digits::<N>() - spared;
+        let points = digits.max(3.0) / decay + (self.integrand.order + N) as f64 + 1.0;
+        (0.5 * points).ceil().clamp(FEWEST_PAIRS, MOST_PAIRS)
+    }
+
+    /// The sums of the weight times 1, c, s, c², cs, and c³, c²s if third moments are wanted, over pairs of opposite
+    /// points.
+    #[inline(always)]
+    fn around<S: Simd, const C: usize>(
+        &self,
+        z: F64s<S>,
+        r: F64s<S>,
+        pairs: usize,
+        (step_sin, step_cos): (f64, f64),
+    ) -> [F64s<S>; 7] {
+        let q = &self.element.form;
+        let zero = F64s::splat(z.simd, 0.0);
+        let (rr, zr) = (r * r, z * r * 2.0);
+        let constant = z * z * q.m33 + rr * q.m22;
+        let (square, mixed) = (rr * (q.m11 - q.m22), rr * (2.0 * q.m12));
+        let (along_cos, along_sin) = (zr * q.m13, zr * q.m23);
+        let (mut c, mut s) = (1.0, 0.0);
+        let mut sums = [zero; 7];
+        for _ in 0..pairs {
+            let (cc, cs) = (c * c, c * s);
+            let even = constant + square * cc + mixed * cs;
+            let odd = along_cos * c + along_sin * s;
+            let (mut here, mut opposite) = (bases::<S, N>(even + odd), bases::<S, N>(even - odd));
+            for factor in self.factors {
+                let (along, across) = (z * factor.z, r * (c * factor.x + s * factor.y));
+                (here, opposite) = (here * (along + across), opposite * (along - across));
+            }
+            let (w, v) = (here + opposite, here - opposite);
+            sums[0] += w;
+            sums[1] += v * c;
+            sums[2] += v * s;
+            sums[3] += w * cc;
+            sums[4] += w * cs;
+            if C == TO_THIRD {
+                sums[5] += v * (c * cc);
+                sums[6] += v * (s * cc);
+            }
+            (c, s) = (c * step_cos - s * step_sin, s * step_cos + c * step_sin);
+        }
+        sums
+    }
+}
+
+/// The components of s, s⊗s, s⊗s⊗s from the sums of `around`.
+#[inline(always)]
+fn components<S: Simd, const C: usize>(
+    [one, c, s, cc, cs, ccc, ccs]: &[F64s<S>; 7],
+    (z, r): (F64s<S>, F64s<S>),
+    w: F64s<S>,
+) -> [F64s<S>; TO_THIRD] {
+    let (w1, w2) = (w * r, w * r * r);
+    let (zeroth, x, y) = (w * *one, w1 * *c, w1 * *s);
+    let (xx, xy, yy) = (w2 * *cc, w2 * *cs, w2 * (*one - *cc));
+    let zz = z * z;
+    let mut out = [zeroth; TO_THIRD];
+    (out[1], out[2], out[3]) = (x, y, z * zeroth);
+    (out[4], out[5], out[6], out[7], out[8], out[9]) = (xx, xy, z * x, yy, z * y, zz * zeroth);
+    if C == TO_THIRD {
+        let w3 = w2 * r;
+        (out[10], out[11], out[12]) = (w3 * *ccc, w3 * *ccs, z * xx);
+        (out[13], out[14], out[15]) = (w3 * (*c - *ccc), z * xy, zz * x);
+        (out[16], out[17], out[18], out[19]) = (w3 * (*s - *ccs), z * yy, zz * y, z * zz * zeroth);
+    }
+    out
+}
+
+/// The moments of the kernels up to the orders asked for.
+pub(crate) fn collect<const C: usize>(sums: &[[f64; C]], requests: &[MomentRequest], out: &mut [Moments]) {
+    for ((sums, request), out) in sums.iter().zip(requests).zip(out) {
+        let mut wanted = [0.0; TO_THIRD];
+        let count = [1, 4, TO_SECOND, TO_THIRD][request.order.min(3)];
+        wanted[..count].copy_from_slice(&sums[..count]);
+        let [zeroth, x, y, z, xx, xy, xz, yy, yz, zz, ..] = wanted;
         out.zeroth = zeroth;
         out.first = Vec3::new(x, y, z);
         out.second = Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-        out.third.0.copy_from_slice(&sums[10..]);
+        out.third.0.copy_from_slice(&wanted[TO_SECOND..]);
     }
 }

@@ -3,15 +3,15 @@
 //! Points are gathered in groups of [`LANES`], kernels and products of components are computed together, and the sums
 //! run lane by lane in a fixed order.
 
-use super::integrand::{Integrand, LANES, Lane, accumulate};
-use super::parallels::ParallelSums;
-use crate::surface::Moments;
+use super::integrand::{GROUP, Integrand, LANES, Lane};
+use super::parallels::{TO_THIRD, collect};
+use crate::surface::{MomentRequest, Moments};
 use crate::tensor::Vec3;
 
 /// Moments of all kernels over points that are added one by one, each with several weights.
 pub(crate) struct PointSums<'a, const W: usize> {
     integrand: &'a Integrand,
-    sums: [ParallelSums; W],
+    sums: [KernelSums; W],
     gaps: Lane,
     weights: [Lane; W],
     at: [Lane; 3],
@@ -22,7 +22,7 @@ impl<'a, const W: usize> PointSums<'a, W> {
     pub(crate) fn new(integrand: &'a Integrand) -> Self {
         let unused = [0.0; LANES];
         let (gaps, weights, at) = ([1.0; LANES], [unused; W], [unused; 3]);
-        Self { integrand, sums: [ParallelSums::ZERO; W], gaps, weights, at, count: 0 }
+        Self { integrand, sums: [KernelSums::ZERO; W], gaps, weights, at, count: 0 }
     }
 
     /// Adds a point with its gap, its area and its weights per area.
@@ -60,11 +60,21 @@ impl<'a, const W: usize> PointSums<'a, W> {
 
     /// The sums, once all points have been added.
     #[inline(always)]
-    pub(crate) fn finish(mut self) -> [ParallelSums; W] {
+    pub(crate) fn finish(mut self) -> [KernelSums; W] {
         if self.count > 0 {
             self.flush();
         }
         self.sums
+    }
+}
+
+/// Adds value × component to the sums, lane by lane.
+#[inline(always)]
+fn accumulate(value: &Lane, components: &[Lane], sums: &mut [Lane]) {
+    for (sum, component) in sums.iter_mut().zip(components) {
+        for lane in 0..LANES {
+            sum[lane] += value[lane] * component[lane];
+        }
     }
 }
 
@@ -87,11 +97,18 @@ fn powers([x, y, z]: &[Lane; 3]) -> [Lane; 20] {
     [[1.0; LANES], *x, *y, *z, xx, xy, xz, yy, yz, zz, xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz]
 }
 
-impl ParallelSums {
+/// The components of 1, x … zzz for each kernel, lane by lane.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct KernelSums {
+    lanes: [[Lane; TO_THIRD]; GROUP],
+}
+
+impl KernelSums {
+    const ZERO: Self = Self { lanes: [[[0.0; LANES]; TO_THIRD]; GROUP] };
+
     /// Sets the moments of all kernels up to the orders asked for.
-    pub(crate) fn collect_all(&self, requests: &[crate::surface::MomentRequest], out: &mut [Moments]) {
-        for (place, (request, moments)) in requests.iter().zip(out).enumerate() {
-            self.collect(place, request.order, moments);
-        }
+    pub(crate) fn collect_all(&self, requests: &[MomentRequest], out: &mut [Moments]) {
+        let sums = self.lanes.map(|sums| sums.map(|lanes| lanes.iter().sum()));
+        collect::<TO_THIRD>(&sums, requests, out);
     }
 }

@@ -7,7 +7,10 @@
 //!
 //! All of them are analytic but for the zeros of v·v at complex places, which is all that the rules have to know.
 
+use pulp::Simd;
+
 use super::integrand::GROUP;
+use crate::simd::F64s;
 use crate::surface::{GapField, Moments};
 use crate::tensor::{Mat3, Vec3};
 
@@ -60,6 +63,19 @@ pub(crate) fn base<const N: usize>(squared: f64) -> f64 {
         2 => 1.0 / squared.sqrt(),
         _ => 1.0 / (squared * squared.sqrt()),
     }
+}
+
+/// The same of a register.
+#[inline(always)]
+pub(crate) fn bases<S: Simd, const N: usize>(squared: F64s<S>) -> F64s<S> {
+    let zero = F64s::splat(squared.simd, 0.0);
+    let base = match N {
+        0 => squared.sqrt(),
+        2 => 1.0 / squared.sqrt(),
+        _ => 1.0 / (squared * squared.sqrt()),
+    };
+    // What is not a number stays so.
+    squared.less_than(F64s::splat(squared.simd, f64::MIN_POSITIVE)).select(zero, base)
 }
 
 /// Digits, as a natural logarithm, by which a weight is harder to resolve than |v|: its singularities are stronger.

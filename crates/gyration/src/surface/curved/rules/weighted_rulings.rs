@@ -8,7 +8,7 @@ use pulp::{Simd, WithSimd};
 
 use super::integrand::LANES;
 use super::rulings::{RulingSums, RulingSweep, Rulings, rows_of};
-use super::weight::Weights;
+use super::weight::{Weights, bases};
 use crate::simd::{F64s, Row, WIDTH, dispatch};
 use crate::surface::MomentRequest;
 use crate::tensor::Vec3;
@@ -95,15 +95,8 @@ impl<const N: usize, const W: usize> WallWeights<'_, N, W> {
     /// The weights of the area vector v.
     #[inline(always)]
     fn of<S: Simd>(&self, v: &[F64s<S>; 3]) -> [F64s<S>; W] {
-        let zero = F64s::splat(v[0].simd, 0.0);
         let squared = (v[0] * v[0] + v[1] * v[1]) + v[2] * v[2];
-        let base = match N {
-            0 => squared.sqrt(),
-            2 => 1.0 / squared.sqrt(),
-            _ => 1.0 / (squared * squared.sqrt()),
-        };
-        // What is not a number stays so.
-        let mut weights = [squared.less_than(F64s::splat(v[0].simd, f64::MIN_POSITIVE)).select(zero, base); W];
+        let mut weights = [bases::<S, N>(squared); W];
         for (weight, factors) in weights.iter_mut().zip(&self.weights.factors) {
             for &factor in factors {
                 *weight = *weight * v[factor];
