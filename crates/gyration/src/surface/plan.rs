@@ -10,16 +10,21 @@ pub struct MomentPlan {
     requests: Vec<MomentRequest>,
     /// How facets meet them, a batch each.
     pub(super) facets: Vec<FacetPlan>,
-    /// How spheres and zones of them meet each, along their axis.
+    /// Their kernels along a segment: the axis of a sphere, a ruling of a cylinder, a meridian of a hemisphere.
     lines: Vec<LineKernel>,
+    /// The same to one degree more: along a ruling of a cone, which widens.
+    widening_lines: Vec<LineKernel>,
 }
 
 impl MomentPlan {
     /// Prepares these requests for any surface.
     pub fn new(requests: Vec<MomentRequest>) -> Self {
         let facets = requests.chunks(BATCH).map(FacetPlan::new).collect();
-        let lines = requests.iter().map(|request| LineKernel::up_to(request.kernel, request.order)).collect();
-        Self { requests, facets, lines }
+        // Degree 1 is the least that a kernel is prepared for.
+        let line = |request: &MomentRequest, beyond| LineKernel::up_to(request.kernel, request.order.max(1) + beyond);
+        let lines = requests.iter().map(|request| line(request, 0)).collect();
+        let widening_lines = requests.iter().map(|request| line(request, 1)).collect();
+        Self { requests, facets, lines, widening_lines }
     }
 
     /// The requests, in the order of the results.
@@ -30,6 +35,11 @@ impl MomentPlan {
     /// Their kernels along a segment, in the same order.
     pub(super) fn lines(&self) -> &[LineKernel] {
         &self.lines
+    }
+
+    /// The same to one degree more.
+    pub(super) fn widening_lines(&self) -> &[LineKernel] {
+        &self.widening_lines
     }
 }
 

@@ -11,6 +11,7 @@ use super::half_plane::{AffineMap, TiltedGap};
 use super::rules::integrand::Integrand;
 use super::rules::ring::{Demand, Rings};
 use super::rules::rulings::{OtherEnd, RulingSums, Rulings};
+use crate::surface::line::LineKernel;
 use crate::surface::{GapField, MomentRequest, Moments};
 use crate::tensor::{Mat3, SymmetricThird, Vec3};
 
@@ -37,7 +38,13 @@ impl ConeWall {
     }
 
     /// Sums the moments about the apex in the frame of [`TiltedGap`]; every gap must be positive.
-    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> AffineMap {
+    pub(crate) fn moments(
+        &self,
+        field: &GapField,
+        requests: &[MomentRequest],
+        lines: &[LineKernel],
+        out: &mut [Moments],
+    ) -> AffineMap {
         let gap = TiltedGap::new(field);
         let integrand = Integrand::new(requests);
         let reach = self.radius * gap.across;
@@ -49,8 +56,8 @@ impl ConeWall {
         let cut = if cut < apex { cut } else { f64::INFINITY };
         let ring = Rings::new(&demand).chunks(near, near + 2.0 * reach);
         let rulings = Rulings { ring, near, reach, cut, other_end: OtherEnd::Common(apex) };
-        for (request, moments) in requests.iter().zip(out) {
-            self.collect(&rulings.sums(request), moments);
+        for ((request, line), moments) in requests.iter().zip(lines).zip(out) {
+            self.collect(&rulings.sums(request, line), moments);
         }
         AffineMap { linear: gap.frame, offset: Vec3::new(0.0, 0.0, 0.5 * self.height) }
     }

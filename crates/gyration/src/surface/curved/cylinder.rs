@@ -10,6 +10,7 @@ use super::rules::integrand::Integrand;
 use super::rules::ring::{Demand, Rings};
 use super::rules::rulings::{OtherEnd, RulingSums, Rulings};
 use super::sphere::shifted;
+use crate::surface::line::LineKernel;
 use crate::surface::{GapField, MomentRequest, Moments};
 use crate::tensor::{Mat3, SymmetricThird, Vec3};
 
@@ -34,7 +35,13 @@ impl CylinderWall {
     }
 
     /// Sums the moments in the frame of [`TiltedGap`]; every gap must be positive.
-    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> AffineMap {
+    pub(crate) fn moments(
+        &self,
+        field: &GapField,
+        requests: &[MomentRequest],
+        lines: &[LineKernel],
+        out: &mut [Moments],
+    ) -> AffineMap {
         let gap = TiltedGap::new(field);
         let integrand = Integrand::new(requests);
         // The end nearer to the plane, and the way to the other.
@@ -46,8 +53,8 @@ impl CylinderWall {
         let ring = Rings::new(&demand).chunks(near, near + 2.0 * reach);
         let cut = integrand.cut(near, 1.5);
         let rulings = Rulings { ring, near, reach, cut, other_end: OtherEnd::Above(rise) };
-        for (request, moments) in requests.iter().zip(out) {
-            self.collect(&rulings.sums(request), near_z, moments);
+        for ((request, line), moments) in requests.iter().zip(lines).zip(out) {
+            self.collect(&rulings.sums(request, line), near_z, moments);
         }
         AffineMap::frame(gap.frame)
     }

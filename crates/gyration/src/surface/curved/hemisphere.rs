@@ -58,14 +58,20 @@ impl Hemisphere {
     }
 
     /// Sums the moments in the frame (e₁, e₂, c); every gap must be positive.
-    pub(crate) fn moments(&self, field: &GapField, requests: &[MomentRequest], out: &mut [Moments]) -> AffineMap {
+    pub(crate) fn moments(
+        &self,
+        field: &GapField,
+        requests: &[MomentRequest],
+        lines: &[LineKernel],
+        out: &mut [Moments],
+    ) -> AffineMap {
         let gap = TiltedGap::new(field);
         let slope = libm::hypot(gap.along, gap.across);
         let (cosine, sine) = if slope > 0.0 { (gap.along / slope, gap.across / slope) } else { (1.0, 0.0) };
         let integrand = Integrand::new(requests);
         let rim = Rim::new((gap.height, self.radius * slope), (cosine, sine), &integrand);
-        for (request, moments) in requests.iter().zip(out) {
-            rim.sums(request).collect(self.radius, (cosine, sine), request.order, moments);
+        for ((request, line), moments) in requests.iter().zip(lines).zip(out) {
+            rim.sums(request, line).collect(self.radius, (cosine, sine), request.order, moments);
         }
         AffineMap::frame(gap.frame * Mat3::new(cosine, 0.0, -sine, 0.0, 1.0, 0.0, sine, 0.0, cosine))
     }
@@ -119,10 +125,9 @@ impl Rim {
         Self { ring: Rings::new(&demand).chunks(graded, far), near, reach, ends, cosine, sine, least, from }
     }
 
-    fn sums(&self, request: &MomentRequest) -> RimSums {
+    fn sums(&self, request: &MomentRequest, line: &LineKernel) -> RimSums {
         // Degree 1 is the least that a kernel is prepared for.
         let order = request.order.clamp(1, 3);
-        let line = LineKernel::up_to(request.kernel, order);
         let mut whole = [0.0; 4];
         if self.from == From::Lowest {
             let [low, high] = self.ends.map(|gap| line.sample(gap));
@@ -131,7 +136,7 @@ impl Rim {
                 *whole = f64::from(1 << k) * moment;
             }
         }
-        let mut sums = dispatch(RimSweep { rim: self, kernel: EndKernel::new(&line), whole, order });
+        let mut sums = dispatch(RimSweep { rim: self, kernel: EndKernel::new(line), whole, order });
         for (sum, whole) in sums.whole.iter_mut().zip(whole) {
             *sum = TAU * whole + self.cosine * *sum;
         }

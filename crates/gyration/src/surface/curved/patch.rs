@@ -116,16 +116,18 @@ impl Patch {
             return sphere.add_moments(&self.offset, field, plan, out);
         }
         let own = GapField::new(field.gap(&self.offset), self.rotation.tr_mul(&field.direction));
-        for (requests, out) in plan.requests().chunks(GROUP).zip(out.chunks_mut(GROUP)) {
+        let lines = plan.lines().chunks(GROUP).zip(plan.widening_lines().chunks(GROUP));
+        for ((requests, out), (lines, widening)) in plan.requests().chunks(GROUP).zip(out.chunks_mut(GROUP)).zip(lines)
+        {
             let mut sums = [Moments::default(); GROUP];
             let sums = &mut sums[..requests.len()];
             let map = match &self.primitive {
                 Primitive::Sphere(_) => unreachable!("a sphere has been added"),
-                Primitive::Hemisphere(p) => p.moments(&own, requests, sums),
+                Primitive::Hemisphere(p) => p.moments(&own, requests, lines, sums),
                 Primitive::Ellipsoid(p) => p.moments(&own, requests, sums),
-                Primitive::CylinderWall(p) => p.moments(&own, requests, sums),
+                Primitive::CylinderWall(p) => p.moments(&own, requests, lines, sums),
                 Primitive::Disk(p) => p.moments(&own, requests, sums),
-                Primitive::ConeWall(p) => p.moments(&own, requests, sums),
+                Primitive::ConeWall(p) => p.moments(&own, requests, widening, sums),
                 Primitive::Torus(p) => p.moments(&own, requests, sums),
             };
             let (linear, offset) = self.map_to_body(&map);

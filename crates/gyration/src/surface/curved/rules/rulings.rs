@@ -51,10 +51,9 @@ pub(crate) struct RulingSums {
 }
 
 impl Rulings<'_> {
-    /// The sums for one kernel.
-    pub(crate) fn sums(&self, request: &MomentRequest) -> RulingSums {
-        let line = self.line(request);
-        dispatch(RulingSweep::new(self, &line, request))
+    /// The sums for one kernel, prepared up to the degree that `line` gives it.
+    pub(crate) fn sums(&self, request: &MomentRequest, line: &LineKernel) -> RulingSums {
+        dispatch(RulingSweep::new(self, line, request))
     }
 
     /// The kernel along a ruling.
