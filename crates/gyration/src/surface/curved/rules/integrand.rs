@@ -17,8 +17,8 @@ pub(crate) const LANES: usize = 4;
 /// One number for each node of a group.
 pub(crate) type Lane = [f64; LANES];
 
-/// Share of a moment that may be left out, well below the accuracy of the rules.
-const NEGLIGIBLE: f64 = 1e-12;
+/// The e-folds, 1e-12, below which a share of a moment may be left out: well below the accuracy of the rules.
+const NEGLIGIBLE: f64 = 27.631021115928547;
 
 /// Whole powers below this are products of the squarings d^∓1, d^∓2, d^∓4, d^∓8.
 const MOST_WHOLE: u32 = 16;
@@ -109,7 +109,7 @@ impl Integrand {
     /// The same as a multiple of the smallest gap.
     pub(crate) fn cut_ratio(&self, less: f64) -> f64 {
         let exponent = self.mildest - less;
-        if exponent > 0.1 { libm::pow(NEGLIGIBLE, -1.0 / exponent) } else { f64::INFINITY }
+        if exponent > 0.1 { libm::exp(NEGLIGIBLE / exponent) } else { f64::INFINITY }
     }
 }
 

@@ -72,6 +72,7 @@ const LEVELS: usize = 50;
 
 /// Frequencies 2π/step grow by this factor from one class of rules to the next.
 const CLASS_RATIO: f64 = 1.12;
+const LN_CLASS_RATIO: f64 = 0.11332868530700327;
 const LOWEST_FREQUENCY: f64 = 16.0;
 const CLASSES: usize = 16;
 
@@ -84,7 +85,7 @@ impl Rings {
         static TABLES: [[OnceLock<Vec<Vec<RingChunk>>>; CLASSES]; MOST_DEGREES + 1] =
             [const { [const { OnceLock::new() }; CLASSES] }; MOST_DEGREES + 1];
         let degree = demand.degree.min(MOST_DEGREES);
-        let above = libm::log(frequency(demand) / LOWEST_FREQUENCY) / libm::log(CLASS_RATIO);
+        let above = libm::log(frequency(demand) / LOWEST_FREQUENCY) / LN_CLASS_RATIO;
         let class = (above.ceil().max(0.0) as usize).min(CLASSES - 1);
         let rows = TABLES[degree][class].get_or_init(|| {
             let frequency = LOWEST_FREQUENCY * CLASS_RATIO.powi(class as i32);
