@@ -13,6 +13,7 @@
 mod blocks;
 mod collocation;
 mod flow;
+mod following;
 mod history;
 mod kinks;
 mod probe;
@@ -26,16 +27,12 @@ pub(crate) use flow::{Flow, NoFlow, each_state};
 pub(crate) use probe::SCALES;
 pub(crate) use quantity::Quantities;
 
+use crate::events::Event;
 use crate::outcome::Outcome;
-use crate::plan::RunPlan;
-use crate::ports::RunError;
+use crate::ports::{Monitor, RunError};
 use crate::record::{MemorySink, Unwatched};
-use crate::rows::Extras;
-use crate::run::Simulation;
-use crate::variation::{NOT_SMOOTH, SceneNumber, SceneVariation};
-use gyration_ode::Integrator;
+use following::{Following, Wait};
 use gyration_scene::Scene;
-use tangent::Tangent;
 
 /// The part of the motion that may be lost to the growth of errors: rtol times growth.
 const GROWN: f64 = 0.1;
@@ -64,6 +61,19 @@ pub struct Sensitivities {
     pub derivatives: Vec<Derivatives>,
     /// How many times what is not known of the start has grown, in units of gaps and speeds.
     pub growth: f64,
+    /// What it took.
+    pub counts: SensitivityCounts,
+}
+
+/// What derivatives along a run take, in counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct SensitivityCounts {
+    /// Steps of the run.
+    pub run_steps: u64,
+    /// Steps of S that were tried, each with five Jacobians and one factorization.
+    pub steps: u64,
+    /// Evaluations of the rates, of the scene and its neighbours, for ∂f/∂p.
+    pub evaluations: u64,
 }
 
 /// The derivatives of quantities by one number.
@@ -124,89 +134,55 @@ impl Sensitivities {
     /// [`SensitivityError`] for a key or a quantity that there is not, or a start outside the model. A derivative that
     /// means nothing is no error, but told in its place.
     pub fn along(scene: &Scene, keys: &[String], quantities: &[String], at: At) -> Result<Self, SensitivityError> {
-        let built = scene.built();
-        let model = &built.model;
-        let numbers = keys.iter().map(|key| SceneNumber::find(scene, key)).collect::<Result<Vec<_>, _>>()?;
-        let mut quantities = Quantities::find(model, quantities)?;
-        let mut this = Self {
-            outcome: Outcome::Completed,
-            times: Vec::new(),
-            values: Vec::new(),
-            numbers: numbers.iter().map(|number| number.value).collect(),
-            derivatives: vec![Derivatives::default(); keys.len()],
-            growth: 1.0,
-        };
-        // Rows with the columns that the quantities know.
-        let plan = RunPlan { extras: Extras::default(), ..built.into() };
-        // The tangent follows one stepper.
-        let mut simulation = Simulation::together(model, &built.state, plan)?;
-        let vary = |number| SceneVariation::new(scene, number).map_err(|reason| Meaningless { from: 0.0, reason });
-        let variations = numbers.into_iter().map(vary).collect();
-        let mut tangent = Tangent::new(model, &built.state, &plan, variations)?;
-        if quantities.with_works {
-            tangent.follow_works();
-        }
+        let mut following = Following::new(scene, keys, quantities)?;
         let mut sink = MemorySink::default();
-        simulation.begin(&mut sink)?;
+        following.begin(&mut sink)?;
         loop {
-            let before = simulation.partition.islands[0].integrator.time();
-            let ended = simulation.advance(&mut sink, &mut Unwatched)?;
-            let after = simulation.partition.islands[0].integrator.time();
-            if after > before {
-                tangent.record(&simulation.partition.islands[0].integrator);
-            }
+            let (before, ended) = following.advance(&mut sink, &mut Unwatched)?;
             for (time, row) in sink.rows.drain(..) {
-                let is_last = ended.is_some() || time >= plan.end;
-                if at == At::End && !(is_last && time >= after) {
-                    continue;
+                let is_last = ended.is_some() || time >= following.plan.end;
+                if at == At::Samples || (is_last && time >= following.time()) {
+                    following.differentiate_at(time, &row);
                 }
-                tangent.reach(time);
-                this.note(time, quantities.of_row(&row));
-                this.differentiate(&mut tangent, &mut quantities, &simulation.partition.islands[0].integrator);
             }
-            if after > before {
-                tangent.go_on();
-                tangent.cross(&simulation.partition.islands[0].integrator, before);
-            }
+            following.go_on(before);
             if let Some(outcome) = ended {
-                this.finish(outcome, &tangent, at);
-                return Ok(this);
+                return Ok(following.finish(outcome, at == At::End));
             }
         }
     }
 
-    fn note(&mut self, time: f64, values: Vec<f64>) {
-        self.times.push(time);
-        self.values.push(values);
-    }
-
-    /// The derivatives at the time that the tangent has come to.
-    fn differentiate(&mut self, tangent: &mut Tangent<'_>, quantities: &mut Quantities, run: &Integrator) {
-        tangent.look(run);
-        for (column, derivatives) in self.derivatives.iter_mut().enumerate() {
-            match tangent.derivative(column, quantities) {
-                Ok(row) => derivatives.rows.push(row),
-                Err(lost) => derivatives.lost = derivatives.lost.take().or(Some(lost)),
+    /// The same at the time of the first event that is wanted, where the run is then left; nowhere if there is none
+    /// before the end, or before `monitor` stops it.
+    ///
+    /// Derivatives are at that fixed time, not along the event. A step of S may have this error, relative to the
+    /// largest entry of a column, where rtol asks for a smaller one: the run itself, and the quantities, are not
+    /// touched by it.
+    ///
+    /// # Errors
+    /// As of [`Sensitivities::along`].
+    pub fn at_event(
+        scene: &Scene,
+        keys: &[String],
+        quantities: &[String],
+        error: f64,
+        is_wanted: impl FnMut(&Event) -> bool,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, SensitivityError> {
+        let mut following = Following::new(scene, keys, quantities)?;
+        following.allow(error);
+        let mut wait = Wait::new(is_wanted);
+        following.begin(&mut wait)?;
+        loop {
+            let (before, ended) = following.advance(&mut wait, monitor)?;
+            if let Some((time, row)) = wait.found.take() {
+                following.differentiate_at(time, &row);
+                return Ok(following.finish(Outcome::Completed, false));
+            }
+            following.go_on(before);
+            if let Some(outcome) = ended {
+                return Ok(following.finish(outcome, true));
             }
         }
-    }
-
-    /// Notes what the end of the run, or the neighbours of the numbers, leave without a meaning.
-    fn finish(&mut self, outcome: Outcome, tangent: &Tangent<'_>, at: At) {
-        self.growth = tangent.growth();
-        for (derivatives, doubt) in self.derivatives.iter_mut().zip(tangent.doubts()) {
-            if let Outcome::Stopped(stop) = &outcome
-                && at == At::End
-                && derivatives.lost.as_ref().is_none_or(|lost| lost.from >= stop.time)
-            {
-                let reason = format!("the run ends there, before its time: {}", stop.what);
-                derivatives.lost = Some(Meaningless { from: stop.time, reason });
-            }
-            if derivatives.lost.is_none() && doubt > NOT_SMOOTH {
-                let reason = "the equations are not smooth in it".to_owned();
-                *derivatives = Derivatives { rows: Vec::new(), lost: Some(Meaningless { from: 0.0, reason }) };
-            }
-        }
-        self.outcome = outcome;
     }
 }

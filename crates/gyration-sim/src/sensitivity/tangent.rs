@@ -15,12 +15,12 @@ use super::kinks::Kinks;
 use super::probe::{SCALES, fill_scales, meaningless, reason};
 use super::quantity::Quantities;
 use super::stage_equations::STAGES;
-use super::{GROWN, Meaningless};
+use super::{GROWN, Meaningless, SensitivityCounts};
 use crate::adapter::ModelSystem;
 use crate::outcome::Stop;
 use crate::plan::RunPlan;
 use crate::ports::RunError;
-use crate::variation::SceneVariation;
+use crate::variation::{BaseRates, SceneVariation};
 use gyration::Inadmissible;
 use gyration::model::Model;
 use gyration::state::State;
@@ -85,7 +85,11 @@ pub(super) struct Tangent<'a> {
     pub(super) time: f64,
     size: f64,
     tolerance: f64,
+    /// rtol of the run.
+    rtol: f64,
     follows_works: bool,
+    /// f at the node at hand.
+    base: BaseRates,
     history: StepHistory,
     /// The state at a node, and its scales.
     pub(super) at: State,
@@ -162,7 +166,9 @@ impl<'a> Tangent<'a> {
             time: start.time,
             size: f64::INFINITY,
             tolerance: SHARE * plan.tolerance.rtol,
+            rtol: plan.tolerance.rtol,
             follows_works: false,
+            base: BaseRates::default(),
             history: StepHistory::default(),
             at: start.clone(),
             scales,
@@ -174,11 +180,33 @@ impl<'a> Tangent<'a> {
     /// Follows the works as well from now on.
     pub fn follow_works(&mut self) {
         self.follows_works = true;
+        for followed in &mut self.columns {
+            let Ok(Followed::Number(number)) = followed else { continue };
+            if let Err(reason) = number.0.follow_works() {
+                *followed = Err(Meaningless { from: self.time, reason });
+            }
+        }
+    }
+
+    /// Allows this error of a step, where rtol asks for a smaller one.
+    pub fn allow(&mut self, error: f64) {
+        self.tolerance = self.tolerance.max(error);
     }
 
     /// How many times the perturbation has grown.
     pub fn growth(&self) -> f64 {
         self.growth
+    }
+
+    /// What it has taken so far.
+    pub fn counts(&self) -> SensitivityCounts {
+        let of_number = |followed: &Result<Followed, Meaningless>| match followed {
+            Ok(Followed::Number(number)) => number.0.evaluations(),
+            Ok(Followed::Direction) | Err(_) => 0,
+        };
+        let [steps, run_steps] = self.tried;
+        let evaluations = self.base.evaluations() + self.columns.iter().map(of_number).sum::<u64>();
+        SensitivityCounts { run_steps, steps, evaluations }
     }
 
     /// How far the derivatives of the equations by each number are in doubt.
@@ -326,11 +354,12 @@ impl<'a> Tangent<'a> {
         let (n, works) = (self.state.nrows(), self.works.nrows());
         let mut forcing = DMatrix::zeros(n, self.state.ncols());
         let mut forcing_works = DMatrix::zeros(works, self.state.ncols());
+        self.base.leave();
         for (column, followed) in self.columns.iter_mut().enumerate() {
             let Ok(Followed::Number(number)) = followed else { continue };
             let (varied, kinks) = &mut **number;
             for (time, weight) in kinks.beside(self.at.time).into_iter().filter(|(_, weight)| *weight != 0.0) {
-                match varied.rates(time, &self.at.bodies, &self.scales) {
+                match varied.rates(model, &mut self.base, (time, &self.at.bodies, &self.scales)) {
                     Ok(found) => {
                         let mut own = forcing.column_mut(column);
                         own.iter_mut().zip(&found[..n]).for_each(|(sum, value)| *sum += weight * value);
@@ -379,7 +408,7 @@ impl<'a> Tangent<'a> {
     fn note_growth(&mut self) {
         let column = self.state.ncols() - 1;
         self.growth = self.growth.max(largest(&self.state, column, &self.scales[..self.state.nrows()]));
-        let rtol = self.tolerance / SHARE;
+        let rtol = self.rtol;
         if self.growth * rtol > GROWN {
             self.lose_all(format!(
                 "what is not known of the state has grown {:.1e} times: with rtol = {rtol:e}, less than a digit of the \

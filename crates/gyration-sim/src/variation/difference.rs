@@ -3,6 +3,11 @@
 /// Differences that are smaller than so many roundings of what is differentiated are rounding.
 const ROUNDINGS: f64 = 1e3;
 
+/// What rounding may add to the difference of numbers of a magnitude, over a step.
+pub(super) fn rounding(magnitude_over_step: f64) -> f64 {
+    0.1 * ROUNDINGS * f64::EPSILON * magnitude_over_step
+}
+
 /// The points of a difference, in steps, with their weights.
 pub(super) type Stencil = &'static [(f64, f64)];
 
@@ -34,9 +39,10 @@ impl Difference {
         };
         let mut this =
             Self { derivative: (0..length).map(at).collect(), largest: 0.0, bend: 0.0, lean: 0.0, noise: 0.0 };
-        let magnitude = scales.iter().enumerate().take(length).map(|(i, scale)| values[0][i].abs() / scale);
-        let rounding = ROUNDINGS * f64::EPSILON * magnitude.fold(0.0, f64::max);
-        this.noise = 0.1 * rounding / step;
+        let magnitudes = scales.iter().enumerate().take(length).map(|(i, scale)| values[0][i].abs() / scale);
+        let magnitude = magnitudes.fold(0.0, f64::max);
+        let least = ROUNDINGS * f64::EPSILON * magnitude;
+        this.noise = rounding(magnitude / step);
         for (i, scale) in scales.iter().enumerate().take(length) {
             // Of the middle and of the whole, or of the first half and the second.
             let [narrow, wide] = match stencil.len() {
@@ -45,11 +51,11 @@ impl Difference {
             };
             this.largest = this.largest.max(this.derivative[i].abs() / scale);
             let apart = (narrow - wide).abs() / scale;
-            if apart > rounding {
+            if apart > least {
                 this.bend = this.bend.max(apart / step);
             }
             let sides = (values[3][i] - values[2][i] - values[1][i] + values[0][i]).abs() / scale;
-            if sides > rounding && stencil.len() == 4 {
+            if sides > least && stencil.len() == 4 {
                 this.lean = this.lean.max(sides / step);
             }
         }

@@ -35,14 +35,22 @@ pub(super) struct VariationSteps {
 }
 
 impl VariationSteps {
-    /// Prepares the first step at which there are neighbours.
+    /// Without a step.
+    pub fn new(scene: &Scene, number: SceneNumber) -> Self {
+        Self { number, base: scene.clone(), levels: Vec::new(), at: 0, keeps_step: false }
+    }
+
+    /// Takes the first step at which there are neighbours, unless it has been taken.
     ///
     /// # Errors
     /// Why there are none, in words.
-    pub fn new(scene: &Scene, number: SceneNumber) -> Result<Self, String> {
-        let mut this = Self { number, base: scene.clone(), levels: Vec::new(), at: 0, keeps_step: false };
-        this.first_level()?;
-        Ok(this)
+    pub fn prepare(&mut self) -> Result<(), String> {
+        if self.levels.is_empty() { self.first_level() } else { Ok(()) }
+    }
+
+    /// The scene whose neighbours they are.
+    pub fn base(&self) -> &Scene {
+        &self.base
     }
 
     /// The neighbours in use.
@@ -122,13 +130,15 @@ impl VariationSteps {
         let step = part * self.scale();
         let scene = |(offset, _): &(f64, f64)| self.number.scene_at(&self.base, self.number.value + offset * step);
         let scenes = stencil.iter().map(scene).collect::<Result<Vec<_>, _>>()?;
-        let same = |scene: &Scene| {
-            let (other, base) = (&scene.built().model, &self.base.built().model);
-            other.blocks() == base.blocks() && other.works() == base.works() && other.energies() == base.energies()
-        };
-        if !scenes.iter().all(same) {
+        if !scenes.iter().all(|scene| have_same_equations(&self.base, scene)) {
             return Err("it changes which equations there are".into());
         }
         Ok(Neighbours { step, stencil, scenes })
     }
+}
+
+/// Whether state and ledger of two scenes have the same entries.
+pub(super) fn have_same_equations(one: &Scene, other: &Scene) -> bool {
+    let (one, other) = (&one.built().model, &other.built().model);
+    one.blocks() == other.blocks() && one.works() == other.works() && one.energies() == other.energies()
 }

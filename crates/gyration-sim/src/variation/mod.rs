@@ -7,14 +7,17 @@
 //! difference of h and 2h, it is reduced for good; where the rates jump by a little, it is enlarged. Where one side is
 //! refused, as for a β of zero, all points stand on the other.
 
+mod dependence;
 mod difference;
 mod levels;
 mod number;
 
+pub(crate) use dependence::BaseRates;
 pub(crate) use number::SceneNumber;
 pub use number::UnknownNumber;
 
-use difference::Difference;
+use dependence::KnownDependence;
+use difference::{Difference, rounding};
 use gyration::Inadmissible;
 use gyration::dynamics::{Workspace, rates};
 use gyration::model::Model;
@@ -40,6 +43,8 @@ pub(crate) const NOT_SMOOTH: f64 = 1e-3;
 pub(crate) struct SceneVariation {
     levels: VariationSteps,
     starts_only: bool,
+    /// How the rates depend on it, where that is known.
+    known: Option<KnownDependence>,
     workspace: Workspace,
     /// How often slopes on both sides are still compared.
     comparisons: u32,
@@ -53,6 +58,8 @@ pub(crate) struct SceneVariation {
     bend: f64,
     /// What is evaluated at each point, one after the other.
     values: Vec<Vec<f64>>,
+    /// How often the rates of a neighbour were asked for.
+    evaluations: u64,
 }
 
 /// A derivative that could not be had.
@@ -76,12 +83,35 @@ impl SceneVariation {
     /// # Errors
     /// Why the derivative by this number has no meaning, in words.
     pub fn new(scene: &Scene, number: SceneNumber) -> Result<Self, String> {
+        let mut this = Self::unprepared(scene, number)?;
+        this.levels.prepare()?;
+        Ok(this)
+    }
+
+    /// The same for the rates along a run: with one neighbour where it is known how they depend on the number, and the
+    /// others only where something else asks for them.
+    ///
+    /// # Errors
+    /// As of [`Self::new`].
+    pub fn along_run(scene: &Scene, number: SceneNumber) -> Result<Self, String> {
+        let mut this = Self::unprepared(scene, number)?;
+        let levels = &this.levels;
+        this.known = KnownDependence::of(scene, &levels.number, levels.scale()).filter(|_| !this.starts_only);
+        if this.known.is_none() {
+            this.levels.prepare()?;
+        }
+        Ok(this)
+    }
+
+    /// Without a neighbour.
+    fn unprepared(scene: &Scene, number: SceneNumber) -> Result<Self, String> {
         if let Some(reason) = number.is_no_quantity() {
             return Err(reason);
         }
         Ok(Self {
             starts_only: number.starts_only(scene),
-            levels: VariationSteps::new(scene, number)?,
+            levels: VariationSteps::new(scene, number),
+            known: None,
             workspace: Workspace::default(),
             comparisons: COMPARISONS,
             largest: 0.0,
@@ -89,6 +119,7 @@ impl SceneVariation {
             noise: 0.0,
             bend: 0.0,
             values: Vec::new(),
+            evaluations: 0,
         })
     }
 
@@ -104,23 +135,58 @@ impl SceneVariation {
 
     /// ∂y₀/∂p.
     pub fn start(&mut self, scales: &[f64]) -> Result<Vec<f64>, NoDerivative> {
+        let here = &self.levels.base().built().state.bodies;
+        // What is the same far away does not know the number.
+        if self.known.as_ref().is_some_and(|known| known.scene().built().state.bodies == *here) {
+            return Ok(vec![0.0; here.len()]);
+        }
         self.differentiate(scales, |scene, _, out| {
             out.extend_from_slice(&scene.built().state.bodies);
             Ok(())
         })
     }
 
-    /// ∂f/∂p, and ∂g/∂p of the works behind it.
-    pub fn rates(&mut self, time: f64, bodies: &[f64], scales: &[f64]) -> Result<Vec<f64>, NoDerivative> {
+    /// Whether ∂g/∂p will be looked at: it may be known less well than ∂f/∂p.
+    ///
+    /// # Errors
+    /// As of [`Self::new`].
+    pub fn follow_works(&mut self) -> Result<(), String> {
+        self.known.take_if(|known| !known.holds_of_powers());
+        if self.known.is_none() { self.levels.prepare() } else { Ok(()) }
+    }
+
+    /// ∂f/∂p, and ∂g/∂p of the works behind it, of the scene with this model.
+    pub fn rates(
+        &mut self,
+        model: &Model,
+        base: &mut BaseRates,
+        (time, bodies, scales): (f64, &[f64], &[f64]),
+    ) -> Result<Vec<f64>, NoDerivative> {
         let works = scales.len() - bodies.len();
         if self.starts_only {
             return Ok(vec![0.0; bodies.len() + works]);
         }
-        self.differentiate(scales, |scene, workspace, out| {
+        let found = self.known.as_mut().map(|known| known.derivative(model, base, (time, bodies, scales)));
+        self.evaluations += u64::from(found.is_some());
+        // Where its neighbour does not know the state, one that is nearer may.
+        if let Some(Ok((derivative, magnitude))) = found {
+            (self.noise, self.bend) = (rounding(magnitude), 0.0);
+            return Ok(derivative);
+        }
+        let mut evaluations = 0;
+        let found = self.differentiate(scales, |scene, workspace, out| {
+            evaluations += 1;
             out.resize(bodies.len() + works, 0.0);
             let (slopes, powers) = out.split_at_mut(bodies.len());
             Ok(rates(&scene.built().model, workspace, time, bodies.into(), slopes, powers)?)
-        })
+        });
+        self.evaluations += evaluations;
+        found
+    }
+
+    /// How often the rates of a neighbour were asked for.
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
     }
 
     /// The derivative of what is told of the neighbouring scenes, in numbers of these scales, with an estimate of its
@@ -157,6 +223,15 @@ impl SceneVariation {
         state: &State,
         mut row: impl FnMut(&Model, &mut Workspace, &State, &mut Vec<f64>) -> Result<(), Inadmissible>,
     ) -> Result<Vec<f64>, NoDerivative> {
+        if let Some(known) = &self.known {
+            let (workspace, mut rows) = (&mut self.workspace, [Vec::new(), Vec::new()]);
+            for (scene, out) in [self.levels.base(), known.scene()].into_iter().zip(&mut rows) {
+                row(&scene.built().model, workspace, state, out)?;
+            }
+            if rows[0] == rows[1] {
+                return Ok(vec![0.0; rows[0].len()]);
+            }
+        }
         self.differentiate(&[], |scene, workspace, out| Ok(row(&scene.built().model, workspace, state, out)?))
     }
 
@@ -169,6 +244,7 @@ impl SceneVariation {
         scales: &[f64],
         mut evaluate: impl FnMut(&Scene, &mut Workspace, &mut Vec<f64>) -> Result<(), NoDerivative>,
     ) -> Result<Vec<f64>, NoDerivative> {
+        self.levels.prepare().map_err(NoDerivative::Reason)?;
         let mut coarse: Option<Difference> = None;
         loop {
             let found = self.evaluate(scales, &mut evaluate);

@@ -4,8 +4,9 @@
 //! `--set` does; an item of a vector or a matrix brings its whole array along, which need not stand in the file.
 
 use crate::resistance::complete;
-use gyration_scene::{Scene, SceneErrors};
+use gyration_scene::{Override, Scene, SceneErrors, Template};
 use serde_json::Value;
+use std::sync::Arc;
 
 /// A key that names no number.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -32,8 +33,11 @@ pub(crate) struct SceneNumber {
     set_value: Value,
     /// Where in that array it is.
     inside: Vec<usize>,
-    /// Whether it can be set in the text as it was written, or in the resolved form only.
+    /// The text in which it is set: as it was written, or the resolved form if it can be set in that only.
+    template: Arc<Template>,
     in_resolved: bool,
+    /// Whether laws of a contact follow from what it does.
+    pub derives_laws: bool,
     /// How a neighbouring scene is made ready.
     completed: fn(Scene) -> Result<Scene, SceneErrors>,
 }
@@ -91,8 +95,27 @@ impl SceneNumber {
             _ => fault("what stands at this key is no number".into(), "give the key of a number, as to --set".into()),
         })?;
         let (set_key, set_value) = array.unwrap_or_else(|| (key.to_owned(), at.clone()));
-        let mut this = Self { key: key.to_owned(), value, set_key, set_value, inside, in_resolved: false, completed };
-        this.in_resolved = this.scene_at(scene, value).is_err();
+        let mut contacts = numbers["contact"].as_array().into_iter().flatten();
+        let derives_laws = contacts.any(|contact| contact.get("from").is_some());
+        let read = |name: &str, text: &str| {
+            let unread = |errors: SceneErrors| fault(first(&errors), "mend the scene".into());
+            Template::parse(name, text, scene.base()).map(Arc::new).map_err(unread)
+        };
+        let mut this = Self {
+            key: key.to_owned(),
+            value,
+            set_key,
+            set_value,
+            inside,
+            template: read("scene", scene.text())?,
+            in_resolved: false,
+            derives_laws,
+            completed,
+        };
+        if this.scene_at(scene, value).is_err() {
+            this.in_resolved = true;
+            this.template = read("resolved.json", &scene.resolved().to_string())?;
+        }
         Ok(this)
     }
 
@@ -129,15 +152,15 @@ impl SceneNumber {
         let leaf = self.inside.iter().try_fold(&mut changed, |at, index| at.get_mut(index));
         *leaf.ok_or("its array has changed")? = value.into();
         let setting = format!("{}={changed}", self.set_key);
-        let found = if self.in_resolved {
-            Scene::parse("resolved.json", &scene.resolved().to_string(), scene.base(), &[setting])
-        } else {
-            let all = [scene.overrides(), vec![setting]].concat();
-            Scene::parse("scene", scene.text(), scene.base(), &all)
-        };
-        let found = found.and_then(self.completed);
-        found.map_err(|errors| errors.as_slice().first().map_or_else(String::new, |error| error.message.clone()))
+        let all = if self.in_resolved { vec![setting] } else { [scene.overrides(), vec![setting]].concat() };
+        let found = self.template.scene(&Override::parse_all(&all)).and_then(self.completed);
+        found.map_err(|errors| first(&errors))
     }
+}
+
+/// The first thing that is wrong with a scene.
+fn first(errors: &SceneErrors) -> String {
+    errors.as_slice().first().map_or_else(String::new, |error| error.message.clone())
 }
 
 /// An item of an array by its name or its index.

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod closed_forms;
+mod costs;
 mod drives;
 mod fluid;
 mod held;
