@@ -45,14 +45,20 @@ impl Calibration {
     /// The curves of a fit; points that cannot be computed are left out.
     pub fn curves(&self, fitted: &Fitted) -> Vec<Curve> {
         let values: Vec<f64> = fitted.numbers.iter().map(|number| number.value).collect();
-        let curves = |table: &Experiment| match table.kind {
-            ExperimentKind::Dispersion => self.branches(table, fitted, &values),
-            _ => vec![self.curve(table, fitted, &values)],
+        let mut predicted = fitted.predictions.as_slice();
+        let mut curves = |table: &Experiment| {
+            let (own, behind) = predicted.split_at(table.measured.len().min(predicted.len()));
+            predicted = behind;
+            match table.kind {
+                ExperimentKind::Dispersion => self.branches((table, own), fitted, &values),
+                _ => vec![self.curve((table, own), fitted, &values)],
+            }
         };
-        on_own_threads(|| self.experiments.iter().flat_map(curves).collect())
+        on_own_threads(|| self.experiments.iter().flat_map(&mut curves).collect())
     }
 
-    fn curve(&self, table: &Experiment, fitted: &Fitted, values: &[f64]) -> Curve {
+    /// The curve of a table, whose own rows are known.
+    fn curve(&self, (table, known): (&Experiment, &[Prediction]), fitted: &Fitted, values: &[f64]) -> Curve {
         let low = table.conditions.iter().copied().fold(f64::INFINITY, f64::min);
         let high = table.conditions.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let beyond = BEYOND * (high - low);
@@ -66,7 +72,11 @@ impl Calibration {
         conditions.sort_unstable_by(f64::total_cmp);
         conditions.dedup();
         let point = |condition: f64| {
-            let predicted = self.predicted(table, condition, values).ok()?;
+            let row = table.conditions.iter().position(|own| *own == condition);
+            let predicted = match row.and_then(|row| known.get(row)) {
+                Some(known) => known.clone(),
+                None => self.predicted(table, condition, values).ok()?,
+            };
             Some(self.point(condition, &predicted, fitted, values))
         };
         let points = conditions.into_par_iter().filter_map(point).collect();
@@ -74,14 +84,13 @@ impl Calibration {
     }
 
     /// A curve a branch, through the waves that were measured, by |κ|.
-    fn branches(&self, table: &Experiment, fitted: &Fitted, values: &[f64]) -> Vec<Curve> {
-        let predicted = self.predicted_frequencies(table, values).unwrap_or_default();
+    fn branches(&self, (table, known): (&Experiment, &[Prediction]), fitted: &Fitted, values: &[f64]) -> Vec<Curve> {
         let branches: BTreeSet<usize> = table.waves.iter().map(|wave| wave.branch).collect();
         let curve = |branch: usize| {
             let mut rows: Vec<usize> =
                 (0..table.waves.len()).filter(|row| table.waves[*row].branch == branch).collect();
             rows.sort_by(|a, b| table.conditions[*a].total_cmp(&table.conditions[*b]));
-            let point = |row: &usize| Some(self.point(table.conditions[*row], predicted.get(*row)?, fitted, values));
+            let point = |row: &usize| Some(self.point(table.conditions[*row], known.get(*row)?, fitted, values));
             let points = rows.iter().filter_map(point).collect();
             Curve { experiment: table.clone(), rows, branch: Some(branch), points }
         };

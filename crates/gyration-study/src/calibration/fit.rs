@@ -65,11 +65,13 @@ impl Calibration {
         if let Some(cause) = Interruption::due() {
             return Err(self.interrupted(cause, &[]));
         }
-        let first = self.squares(&predicted?);
+        let predicted = predicted?;
+        let first = self.squares(&predicted);
         let u = self.numbers.iter().map(|number| number.scale.inward(number.start));
         let start = DVector::from_iterator(self.numbers.len(), u);
         let problem = Residuals { calibration: self, start: start.clone() };
-        let mut found = minimize(&problem, start, TOLERANCE, Some(patience.unwrap_or(DOUBT)));
+        let known = problem.weighted(&start, predicted.into_iter().map(Ok));
+        let mut found = minimize(&problem, (start, known), TOLERANCE, Some(patience.unwrap_or(DOUBT)));
         if patience.is_none() && found.ending == SearchEnd::Patience {
             // On its way the search may have satisfied the wrong measurement at the cost of the others.
             let gains: Vec<f64> = first.iter().zip(&found.residuals).map(|(first, now)| first.max(now * now)).collect();
@@ -77,8 +79,8 @@ impl Calibration {
                 let reason = format!("it had come to no end after {DOUBT} evaluations; {}", suspect.in_words());
                 return Err(CalibrationError::Search(reason));
             }
-            let more = minimize(&problem, found.u, TOLERANCE, None);
-            found = Minimum { evaluations: found.evaluations + more.evaluations, ..more };
+            let more = minimize(&problem, (found.u, found.residuals), TOLERANCE, None);
+            found = Minimum { evaluations: found.evaluations + more.evaluations - 1, ..more };
         }
         let Minimum { u, residuals, ending, evaluations } = found;
         if let Some(cause) = Interruption::due() {
@@ -165,16 +167,22 @@ impl Calibration {
     }
 }
 
-impl Problem for Residuals<'_> {
-    fn residuals(&self, u: &DVector<f64>) -> DVector<f64> {
-        let values = self.calibration.values_at(u.as_slice());
+impl Residuals<'_> {
+    /// r, from what would be measured at u in each row.
+    fn weighted(&self, u: &DVector<f64>, found: impl IntoIterator<Item = Result<f64, String>>) -> DVector<f64> {
         let residual = |((table, row), found): ((&Experiment, usize), Result<f64, String>)| {
             found.map_or(BAD, |found| (found - table.measured[row]) / table.deviations[row])
         };
-        let found = self.calibration.values_of_rows(&values);
         let mut all: Vec<f64> = self.calibration.rows().zip(found).map(residual).collect();
         all.extend((u - &self.start).iter().map(|way| way / START));
         all.into()
+    }
+}
+
+impl Problem for Residuals<'_> {
+    fn residuals(&self, u: &DVector<f64>) -> DVector<f64> {
+        let found = self.calibration.values_of_rows(&self.calibration.values_at(u.as_slice()));
+        self.weighted(u, found)
     }
 
     fn jacobian(&self, u: &DVector<f64>) -> Option<DMatrix<f64>> {
@@ -190,10 +198,16 @@ impl Problem for Residuals<'_> {
 impl Calibration {
     /// ∂r/∂u, a list a row.
     pub(super) fn weighted_slopes(&self, values: &[f64]) -> Result<Vec<Vec<f64>>, String> {
-        let row = |((table, row), found): ((&Experiment, usize), Result<Prediction, String>)| {
-            Ok(self.inward(&found?.slopes, values, table.deviations[row]))
+        let found = self.predictions_of_rows(values).into_iter().collect::<Result<Vec<_>, _>>()?;
+        Ok(self.slopes_of(&found, values))
+    }
+
+    /// ∂r/∂u of what would be measured in each row, a list a row.
+    pub(super) fn slopes_of(&self, predictions: &[Prediction], values: &[f64]) -> Vec<Vec<f64>> {
+        let row = |((table, row), found): ((&Experiment, usize), &Prediction)| {
+            self.inward(&found.slopes, values, table.deviations[row])
         };
-        self.rows().zip(self.predictions_of_rows(values)).map(row).collect()
+        self.rows().zip(predictions).map(row).collect()
     }
 
     /// Derivatives by the numbers as derivatives by u, over a deviation.

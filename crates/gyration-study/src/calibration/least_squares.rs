@@ -50,20 +50,19 @@ pub(super) struct Minimum {
     /// r there.
     pub residuals: DVector<f64>,
     pub ending: SearchEnd,
-    /// How often r was computed.
+    /// How often r was computed, with that at the start.
     pub evaluations: usize,
 }
 
-/// Searches from u for the least squares, to a relative tolerance of their sum, of u, and of the angle between r and J;
-/// with so many evaluations at most.
+/// Searches from u, where r is known, for the least squares, to a relative tolerance of their sum, of u, and of the
+/// angle between r and J; with so many evaluations at most, the known one among them.
 pub(super) fn minimize(
     problem: &impl Problem,
-    mut u: DVector<f64>,
+    (mut u, mut residuals): (DVector<f64>, DVector<f64>),
     tolerance: f64,
     patience: Option<usize>,
 ) -> Minimum {
     let patience = patience.unwrap_or(PATIENCE * (u.len() + 1));
-    let mut residuals = problem.residuals(&u);
     let mut norm = residuals.norm();
     let mut evaluations = 1;
     let mut region: Option<Region> = None;
@@ -285,6 +284,12 @@ mod tests {
         }
     }
 
+    /// Searches from a point of which nothing is known.
+    fn minimized(problem: &impl Problem, u: DVector<f64>, tolerance: f64, patience: Option<usize>) -> Minimum {
+        let residuals = problem.residuals(&u);
+        minimize(problem, (u, residuals), tolerance, patience)
+    }
+
     fn rosenbrock() -> impl Problem {
         Given(
             |u: &DVector<f64>| vec![10.0 * (u[1] - u[0] * u[0]), 1.0 - u[0]],
@@ -295,7 +300,7 @@ mod tests {
     #[test]
     fn a_curved_valley_is_followed_to_its_end() {
         for start in [[-1.2, 1.0], [-12.0, 10.0], [-120.0, 100.0]] {
-            let found = minimize(&rosenbrock(), DVector::from_row_slice(&start), 1e-12, None);
+            let found = minimized(&rosenbrock(), DVector::from_row_slice(&start), 1e-12, None);
             assert_eq!(found.ending, SearchEnd::Converged);
             assert!((found.u - DVector::repeat(2, 1.0)).norm() < 1e-10);
             // MINPACK takes 16 from the first of these starts (Moré, Garbow, Hillstrom 1981).
@@ -317,7 +322,7 @@ mod tests {
                     Some(scaled.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<_>>()).collect())
                 },
             );
-            let found = minimize(&problem, DVector::from_row_slice(&units).map(f64::recip), 1e-12, None);
+            let found = minimized(&problem, DVector::from_row_slice(&units).map(f64::recip), 1e-12, None);
             assert_eq!(found.ending, SearchEnd::Converged);
             let back = found.u.component_mul(&DVector::from_row_slice(&units));
             // The condition of the matrix is below ten.
@@ -332,10 +337,10 @@ mod tests {
             |u: &DVector<f64>| vec![if u[0] > 0.0 { u[0].ln() - 1.0 } else { 1e100 }],
             |u: &DVector<f64>| (u[0] > 0.0).then(|| vec![1.0 / u[0]]),
         );
-        let found = minimize(&problem, DVector::from_element(1, 30.0), 1e-12, None);
+        let found = minimized(&problem, DVector::from_element(1, 30.0), 1e-12, None);
         assert_eq!(found.ending, SearchEnd::Converged);
         assert!((found.u[0] - std::f64::consts::E).abs() < 1e-10, "{}", found.u[0]);
-        let stranded = minimize(&problem, DVector::from_element(1, -1.0), 1e-12, None);
+        let stranded = minimized(&problem, DVector::from_element(1, -1.0), 1e-12, None);
         assert_eq!((stranded.ending, stranded.evaluations), (SearchEnd::Stranded, 1));
     }
 }

@@ -2,15 +2,12 @@
 
 use super::scene::{body, normal};
 use super::{Calibration, Experiment, FreeNumber};
-use crate::extract::ColumnPlaces;
 use gyration::dynamics::gap_to_supports;
 use gyration::tensor::Vec3;
-use gyration_record::RecordError;
 use gyration_scene::{Override, Scene};
 use gyration_sim::events::{APEX, Event};
-use gyration_sim::sensitivity::{At, Sensitivities};
-use gyration_sim::{Monitor, Progress, Reason, RunPlan, Simulation, Sink, complete};
-use std::cell::Cell;
+use gyration_sim::sensitivity::Sensitivities;
+use gyration_sim::{Monitor, Progress, Reason};
 
 /// A support is level where its normal and the vertical differ by less than the root of twice this: what a speed along
 /// it would change is then of the order of rounding.
@@ -20,6 +17,10 @@ const FALLS: f64 = 4.0;
 const LONGER: f64 = 1.0;
 /// Steps to the apex at most; a drop takes some hundreds. A search may come to numbers with which it takes millions.
 const MOST_STEPS: u64 = 20_000;
+
+/// The error of a step in the derivatives of a run, a part of the largest: a search that goes by them comes to the same
+/// numbers, and standard errors are not known to more than three digits.
+const SLOPE_ERROR: f64 = 1e-6;
 
 /// A body about to be dropped.
 pub(super) struct Drop {
@@ -59,51 +60,34 @@ impl Drop {
         Ok(Self { scene, index, normal, height, start })
     }
 
-    /// The time of the apex [s], and where the centre of mass is then.
-    fn apex(&self) -> Result<(f64, Vec3), String> {
-        let built = self.scene.built();
-        let plan = RunPlan::from(built);
-        let place = ColumnPlaces::new(&built.model, &plan).position + 3 * self.index;
-        let finder = ApexFinder {
-            body: self.index,
-            place,
-            touched: Cell::default(),
-            apex: Cell::default(),
-            is_slow: Cell::default(),
-        };
-        let mut run = Simulation::new(&built.model, &built.state, plan).map_err(|e| e.to_string())?;
-        let (mut sink, mut monitor) = (&finder, &finder);
-        run.begin(&mut sink).map_err(|e| e.to_string())?;
-        let outcome = run.run(&mut sink, &mut monitor).map_err(|e| e.to_string())?;
-        let none = || match finder.is_slow.get() {
-            true => format!("its run takes more than {MOST_STEPS} steps"),
-            false => format!("it does not rebound: {}", outcome.in_words()),
-        };
-        finder.apex.get().ok_or_else(none)
-    }
-
     pub fn rebound(&self) -> Result<f64, String> {
-        Ok(self.height_at(self.apex()?.1))
-    }
-
-    /// The gap with which the body started, and the rise of its centre of mass since.
-    fn height_at(&self, center: Vec3) -> f64 {
-        self.height + (center - self.start).dot(&self.normal)
+        Ok(self.at_apex(&[])?.0)
     }
 
     /// The rebound with its derivatives by keys; those at a fixed time, since the speed vanishes at the apex.
     fn at_apex(&self, keys: &[String]) -> Result<(f64, Vec<Option<f64>>), String> {
-        let (time, _) = self.apex()?;
-        let overrides = [self.scene.overrides(), vec![until(time).to_string()]].concat();
-        let scene = Scene::parse("scene", self.scene.text(), self.scene.base(), &overrides).and_then(complete);
-        let scene = scene.map_err(|errors| errors.to_string())?;
-        let name = scene.built().model.name(self.index);
+        let name = self.scene.built().model.name(self.index);
         let columns = ["x", "y", "z"].map(|axis| format!("{name}.{axis}"));
-        let found = Sensitivities::along(&scene, keys, &columns, At::End).map_err(|e| e.to_string())?;
-        let last = found.values.last().ok_or("the run has no end")?;
+        let (mut touched, mut limit) = (false, StepLimit::default());
+        // Behind the first touch, which is a closest approach.
+        let is_apex = |event: &Event| {
+            let is_own = event.body == self.index;
+            touched |= is_own && event.kind != APEX;
+            is_own && event.kind == APEX && touched
+        };
+        let found = Sensitivities::at_event(&self.scene, keys, &columns, SLOPE_ERROR, is_apex, &mut limit);
+        let found = found.map_err(|error| error.to_string())?;
+        let Some(center) = found.values.last() else {
+            return Err(match limit.is_reached {
+                true => format!("its run takes more than {MOST_STEPS} steps"),
+                false => format!("it does not rebound: {}", found.outcome.in_words()),
+            });
+        };
+        // The gap with which the body started, and the rise of its centre of mass since.
+        let rise = (Vec3::from_column_slice(center) - self.start).dot(&self.normal);
         let slope = |row: &[f64]| Vec3::from_column_slice(row).dot(&self.normal);
         let slopes = found.derivatives.iter().map(|by_key| by_key.at_end().ok().map(slope)).collect();
-        Ok((self.height_at(Vec3::from_column_slice(last)), slopes))
+        Ok((self.height + rise, slopes))
     }
 
     /// The rebound, and its derivatives by those numbers that have one along the run: none if a number belongs to more
@@ -135,42 +119,15 @@ impl Drop {
     }
 }
 
-/// Finds the apex behind the first touch.
-struct ApexFinder {
-    body: usize,
-    /// Where its centre of mass stands in a row.
-    place: usize,
-    touched: Cell<bool>,
-    apex: Cell<Option<(f64, Vec3)>>,
-    /// Whether it took too many steps.
-    is_slow: Cell<bool>,
+/// Ends a run that takes too many steps.
+#[derive(Default)]
+struct StepLimit {
+    is_reached: bool,
 }
 
-impl Sink for &ApexFinder {
-    fn event(&mut self, event: &Event) -> Result<(), RecordError> {
-        if event.body == self.body && event.kind != APEX {
-            self.touched.set(true);
-        }
-        Ok(())
-    }
-
-    fn wants_event_rows(&self) -> bool {
-        true
-    }
-
-    fn event_row(&mut self, event: &Event, row: &[f64]) -> Result<(), RecordError> {
-        let is_apex = event.body == self.body && event.kind == APEX && self.touched.get();
-        if is_apex && self.apex.get().is_none() {
-            let center = Vec3::from_column_slice(&row[self.place..self.place + 3]);
-            self.apex.set(Some((event.time, center)));
-        }
-        Ok(())
-    }
-}
-
-impl Monitor for &ApexFinder {
+impl Monitor for StepLimit {
     fn after_step(&mut self, progress: &Progress) -> Option<Reason> {
-        self.is_slow.set(progress.statistics.accepted() >= MOST_STEPS);
-        (self.apex.get().is_some() || self.is_slow.get()).then_some(Reason::Interrupted)
+        self.is_reached = progress.statistics.accepted() >= MOST_STEPS;
+        self.is_reached.then_some(Reason::Interrupted)
     }
 }

@@ -1,7 +1,10 @@
 //! The scenes of measurements: one scene with the numbers and the condition of a measurement, and where its body is.
 
 use super::{Calibration, Experiment};
+use gyration::balance::observe;
+use gyration::dynamics::Workspace;
 use gyration::model::Model;
+use gyration::state::State;
 use gyration::tensor::Vec3;
 use gyration_scene::{Override, Scene};
 use gyration_sim::complete;
@@ -37,19 +40,18 @@ impl Calibration {
         self.template.scene(&self.settings).ok()?.built().plan.wall_time()
     }
 
-    /// The scene on a slope, with the part of gravity that presses.
-    pub(super) fn tilted(
-        &self,
-        experiment: &Experiment,
-        scene: &Scene,
-        slope: f64,
-        values: &[f64],
-    ) -> Result<Scene, String> {
+    /// The part of gravity that presses on a slope: what a scene there is to have.
+    pub(super) fn pressing(&self, experiment: &Experiment, scene: &Scene, slope: f64) -> Result<Override, String> {
         let model = &scene.built().model;
         let normal = normal(model, body(model, experiment)?)?;
         let pressing = -normal * (model.gravity.norm() * libm::cos(slope));
-        let gravity = Override::new("world.gravity", <[f64; 3]>::from(pressing));
-        self.scene(experiment, slope, values, &[gravity])
+        Ok(Override::new("world.gravity", <[f64; 3]>::from(pressing)))
+    }
+
+    /// Whether gravity and the planes of supports stay as they are, whatever is fitted.
+    pub(super) fn moves_no_support(&self) -> bool {
+        let mut keys = self.numbers.iter().flat_map(|number| &number.keys);
+        keys.all(|key| key.starts_with("contact.") || key.starts_with("body."))
     }
 }
 
@@ -85,4 +87,19 @@ pub(super) fn normal(model: &Model, body: usize) -> Result<Vec3, String> {
         format!("no support acts on {name:?}")
     })?;
     Ok(model.supports[contact.support].normal)
+}
+
+/// Where the velocity of a body's centre stands in the state.
+pub(super) fn velocity(model: &Model, index: usize) -> Result<usize, String> {
+    let body = &model.bodies[index];
+    if body.pin.is_some() || body.guide.is_some() || !body.has_inertia() {
+        return Err(format!("{:?} is pinned, has a `keep` or has no inertia", model.name(index)));
+    }
+    Ok(model.slots(index).velocity().start)
+}
+
+/// The force of its contacts on a body [N].
+pub(super) fn force(model: &Model, state: &State, index: usize) -> Result<Vec3, String> {
+    let seen = observe(model, &mut Workspace::default(), state, index);
+    seen.map(|seen| seen.contact_force).map_err(|left| left.to_string())
 }

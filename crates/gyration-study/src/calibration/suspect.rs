@@ -130,8 +130,8 @@ impl Calibration {
         let degrees_of_freedom = degrees_of_freedom.checked_sub(count).filter(|freedom| *freedom > 0)?;
         let others = self.without(left);
         let Found { values, .. } = others.search(Some(patience)).ok()?;
-        let residuals = others.residuals(&values).ok()?;
-        let chi_squared = residuals.iter().map(|residual| residual.weighted * residual.weighted).sum();
+        let fitted = others.values_of_rows(&values).into_iter().collect::<Result<Vec<_>, _>>().ok()?;
+        let chi_squared = others.residuals_of(fitted).map(|residual| residual.weighted * residual.weighted).sum();
         if is_far(chi_squared, degrees_of_freedom) {
             return None;
         }

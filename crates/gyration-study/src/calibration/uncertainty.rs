@@ -8,6 +8,7 @@
 //! more, or where a direction that is not fitted, followed so far, moves it by more than its error.
 
 use super::fit::START;
+use super::predict::Prediction;
 use super::suspect::{Leverage, Suspect};
 use super::{Calibration, CalibrationError};
 use gyration_threads::{Interruption, on_own_threads};
@@ -45,6 +46,9 @@ pub struct Fitted {
     /// C in u, without the directions in which nothing was fitted.
     #[serde(skip)]
     pub(super) covariance: DMatrix<f64>,
+    /// What the scene with these numbers gives in each row.
+    #[serde(skip)]
+    pub(super) predictions: Vec<Prediction>,
 }
 
 /// A number that was found.
@@ -103,12 +107,15 @@ impl Calibration {
     fn fit_here(&self) -> Result<Fitted, CalibrationError> {
         let found = self.search(None)?;
         let values = found.values;
-        let (slopes, residuals) = (self.weighted_slopes(&values), self.residuals(&values));
+        // What would be measured there, of which slopes, residuals and the points of a drawing are made.
+        let predictions = self.predictions_of_rows(&values).into_iter().collect::<Result<Vec<_>, _>>();
         if let Some(cause) = Interruption::due() {
             // A run that was given up has derivatives as well: those of an earlier time.
             return Err(self.interrupted(cause, &found.residuals));
         }
-        let (slopes, residuals) = (slopes.map_err(CalibrationError::Search)?, residuals?);
+        let predictions = predictions.map_err(CalibrationError::Search)?;
+        let slopes = self.slopes_of(&predictions, &values);
+        let residuals: Vec<_> = self.residuals_of(predictions.iter().map(|predicted| predicted.value)).collect();
         let (rows, count) = (slopes.len(), values.len());
         let jacobian = DMatrix::from_row_iterator(rows, count, slopes.into_iter().flatten());
         let Eigendirections { covariance, all } = Eigendirections::of(&jacobian);
@@ -174,17 +181,17 @@ impl Calibration {
             ending: found.ending,
             evaluations: found.evaluations,
             covariance,
+            predictions,
         })
     }
 
-    pub(super) fn residuals(&self, values: &[f64]) -> Result<Vec<Residual>, CalibrationError> {
-        let residual = |((table, row), found): ((&super::Experiment, usize), Result<f64, String>)| {
+    /// What is left of each measurement, from what would be measured in each row.
+    pub(super) fn residuals_of(&self, fitted: impl IntoIterator<Item = f64>) -> impl Iterator<Item = Residual> {
+        self.rows().zip(fitted).map(|((table, row), fitted)| {
             let (condition, measured, deviation) = (table.conditions[row], table.measured[row], table.deviations[row]);
-            let fitted = found.map_err(CalibrationError::Search)?;
             let weighted = (fitted - measured) / deviation;
-            Ok(Residual { table: table.place(), row, condition, measured, deviation, fitted, weighted })
-        };
-        self.rows().zip(self.values_of_rows(values)).map(residual).collect()
+            Residual { table: table.place(), row, condition, measured, deviation, fitted, weighted }
+        })
     }
 
     /// What a direction leaves open: the numbers that take part, and the one that moves most.
