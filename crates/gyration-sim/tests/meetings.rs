@@ -10,6 +10,7 @@ use gyration::dynamics::Workspace;
 use gyration::instant::PairGaps;
 use gyration::load::{Spring, SpringLaw};
 use gyration::model::Model;
+use gyration::neighbours::BodyPair;
 use gyration::state::State;
 use gyration::tensor::Vec3;
 use gyration_ode::Statistics;
@@ -17,8 +18,13 @@ use gyration_sim::events::{APEX, EVENT_KINDS};
 use gyration_sim::{MemorySink, Outcome, RunPlan, Simulation, Unwatched};
 use std::num::NonZeroUsize;
 
-/// The distance of two centres from which on they do nothing to each other [m].
-const REACH: f64 = 0.2;
+/// No two of a cloud begin nearer than that from centre to centre [m].
+const APART: f64 = 0.24;
+
+/// The distance of the centres of the first two from which on they do nothing to each other [m].
+fn cutoff(model: &Model) -> f64 {
+    model.cutoff(&BodyPair { rule: 0, bodies: [0, 1] }).unwrap().centers
+}
 
 const HEAD: &str = r#"
     world = { gravity = [0, 0, 0] }
@@ -56,7 +62,7 @@ fn cloud(count: usize, overrides: &[&str]) -> (Model, State, RunPlan) {
     let mut starts: Vec<([f64; 3], [f64; 3])> = Vec::new();
     while starts.len() < count {
         let place = [0; 3].map(|_| 2.0 * number());
-        let apart = |other: &[f64; 3]| (Vec3::from(*other) - Vec3::from(place)).norm() > 1.2 * REACH;
+        let apart = |other: &[f64; 3]| (Vec3::from(*other) - Vec3::from(place)).norm() > APART;
         if starts.iter().all(|(other, _)| apart(other)) {
             starts.push((place, [0, 1, 2].map(|axis| -0.6 * place[axis] + 0.5 * number())));
         }
@@ -273,8 +279,9 @@ fn rows_at_events_are_those_of_the_path() {
 
 #[test]
 fn balls_that_pass_one_another_never_know_of_each_other() {
-    let starts = [([-0.5, 0.0, 0.0], [1.0, 0.0, 0.0]), ([0.5, 0.21, 0.0], [-1.0, 0.0, 0.0])];
-    let (model, start, plan) = balls(&starts, &["time.end=1"]);
+    let starts = |beside: f64| [([-0.5, 0.0, 0.0], [1.0, 0.0, 0.0]), ([0.5, beside, 0.0], [-1.0, 0.0, 0.0])];
+    let beside = cutoff(&balls(&starts(1.0), &[]).0) + 1e-4;
+    let (model, start, plan) = balls(&starts(beside), &["time.end=1"]);
     let found = run(&(model.clone(), start.clone(), plan));
     let apart = model.meeting(Vec::new());
     let alone = run(&(apart.clone(), State { works: vec![0.0; apart.works().len()], ..start }, plan));
@@ -307,17 +314,20 @@ fn balls_that_stay_at_the_end_of_their_reach_do_not_meet_and_part_in_turns() {
     let row = |spacing: f64| -> Vec<_> {
         (0..5).map(|k| ([0.07 + spacing * f64::from(k), 0.0, 0.0], [-1.0, 0.0, 0.0])).collect()
     };
-    let (model, start, plan) = balls(&row(REACH), &["time.end=2"]);
+    let edge = cutoff(&balls(&row(1.0), &[]).0);
+    let (model, start, plan) = balls(&row(edge + 1e-10), &["time.end=2"]);
     let found = run(&(model.clone(), start.clone(), plan));
-    let apart = model.meeting(Vec::new());
+    let apart = model.clone().meeting(Vec::new());
     let alone = run(&(apart.clone(), State { works: vec![0.0; apart.works().len()], ..start }, plan));
     assert_eq!(found.state.bodies, alone.state.bodies);
     assert_eq!(found.statistics, alone.statistics);
-    let evaluations = |spacing| run(&balls(&row(spacing), &["time.end=2"])).statistics.rate_evaluations;
-    // Some of them are one island, and stay so.
-    let most = evaluations(REACH - 1e-3) + alone.statistics.rate_evaluations;
-    for spacing in [REACH - 1e-10, REACH - 1e-10 + 4e-17, REACH - 1e-10 - 4e-17] {
-        let count = evaluations(spacing);
+    let of = |spacing| run(&balls(&row(spacing), &["time.end=2"]));
+    // Some of them are one island, and stay so: they push each other.
+    let nearer = of(edge - 1e-3);
+    assert_ne!(nearer.state.motion(&model, 0).velocity.velocity.x, -1.0);
+    let most = nearer.statistics.rate_evaluations + alone.statistics.rate_evaluations;
+    for spacing in [edge, edge.next_up(), edge.next_down()] {
+        let count = of(spacing).statistics.rate_evaluations;
         println!("{count} evaluations, {most} expected at most");
         assert!(count <= most, "{count}");
     }

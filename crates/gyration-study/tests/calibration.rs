@@ -434,8 +434,8 @@ fn measurement_that_leads_the_search_astray_is_named() {
 fn measurement_that_keeps_the_search_from_its_end_is_named() {
     let lost = misread(["\"0.409 N\"", "409"], "").to_string();
     println!("{lost}");
-    // Searches of the others end within 1e-4 of their standard errors: four digits.
-    assert!(lost.contains("30 evaluations; row 1 of pull_off.0 is at odds") && lost.contains("9.65"), "{lost}");
+    // Derivatives of 1e-6 a step leave four digits of what the others tell.
+    assert!(lost.contains("30 evaluations; row 1 of pull_off.0 is at odds") && lost.contains("9.658"), "{lost}");
 }
 
 /// On a slow machine a short time is over before anything is known: a longer one is then tried.

@@ -4,7 +4,7 @@
 //! density. Under a `mass` the densities of the parts are relative weights.
 
 use crate::check::{Placed, Reporter};
-use crate::file::{Body, Shape as Written};
+use crate::file::{Body, Part, Shape as Written};
 use crate::key::Key;
 use crate::quantity::si;
 use gyration::mass::MassProperties;
@@ -27,7 +27,7 @@ pub(super) enum MassSource {
 /// Whether neither the body nor its shape says what it weighs.
 pub(super) fn is_unknown(body: &Body) -> bool {
     let is_said = body.density.is_some() || body.mass.is_some() || body.mass_properties.is_some();
-    !is_said && body.shape.as_ref().is_some_and(|shape| !weighs(shape, false))
+    !is_said && body.shape.as_ref().is_some_and(|shape| !shape.weighs())
 }
 
 impl MassSource {
@@ -52,11 +52,7 @@ impl MassSource {
                 None
             }
             (Some(Written::Points(_)), None) => Some(Self::Shape),
-            (Some(Written::Union(union)), None)
-                if union.parts.iter().any(|part| weighs(&part.shape, part.density.is_some())) =>
-            {
-                Some(Self::Shape)
-            }
+            (Some(Written::Union(union)), None) if union.parts.iter().any(Part::weighs) => Some(Self::Shape),
             (Some(_), None) => {
                 reporter.note(key, "the body has no mass", help);
                 None
@@ -74,7 +70,7 @@ impl MassSource {
     pub(super) fn density(&self, shape: &Written) -> Option<f64> {
         match self {
             Self::Density(density) => Some(*density),
-            Self::Mass(_) if !weighs(shape, false) => Some(1.0),
+            Self::Mass(_) if !shape.weighs() => Some(1.0),
             Self::Mass(_) | Self::Shape => None,
             Self::Properties(_) => Some(1.0),
         }
@@ -97,16 +93,6 @@ impl MassSource {
             }
         }
     }
-}
-
-/// Whether a shape has densities or masses of its own, in any part.
-fn weighs(shape: &Written, density: bool) -> bool {
-    density
-        || match shape {
-            Written::Points(_) => true,
-            Written::Union(union) => union.parts.iter().any(|part| weighs(&part.shape, part.density.is_some())),
-            _ => false,
-        }
 }
 
 /// The key to complain about, of those that stand in the body: the last of the three.

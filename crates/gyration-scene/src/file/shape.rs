@@ -33,6 +33,24 @@ pub enum Shape {
     Points(Vec<PointMass>),
 }
 
+impl Shape {
+    /// Whether it has densities or masses of its own, in any part.
+    pub fn weighs(&self) -> bool {
+        match self {
+            Self::Points(_) => true,
+            Self::Union(union) => union.parts.iter().any(Part::weighs),
+            _ => false,
+        }
+    }
+}
+
+impl Part {
+    /// Whether it has densities or masses of its own.
+    pub fn weighs(&self) -> bool {
+        self.density.is_some() || self.shape.weighs()
+    }
+}
+
 /// A box.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

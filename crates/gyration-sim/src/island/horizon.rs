@@ -94,11 +94,11 @@ pub(crate) fn horizon(
             (None, None) => continue,
         };
         let bend = seen.map_or(0.0, |(seen, _)| seen.bend);
-        match (slab.gap < f64::INFINITY, pair.form.reach) {
+        match (slab.gap < f64::INFINITY, pair.form.range) {
             // All pairs with supports are listed.
-            (false, Some(reach)) if is_whole || seen.is_some() => {
+            (false, Some(range)) if is_whole || seen.is_some() => {
                 let approach = Approach::of(both[0], both[1]).bent_more(bend);
-                step = step.min(before_meeting(&approach, (reach, pair.form.radii()), step));
+                step = step.min(before_meeting(&approach, (range, pair.form.radii()), step));
             }
             (false, Some(_)) => {}
             _ => {
@@ -124,10 +124,10 @@ fn before_any_meeting(model: &Model, ends: &[StepEnd], within: f64, longest: f64
     for BodyPair { rule, bodies } in may_meet(model, ends, within) {
         let solids = bodies.map(|body| &*model.bodies[body].solid);
         for parts in Solid::parts_of(solids) {
-            let Some(reach) = model.rules().all()[rule].range_between(solids, parts) else { continue };
+            let Some(range) = model.rules().all()[rule].range_between(solids, parts) else { continue };
             let radii = [0, 1].map(|end| solids[end].part_radius(parts[end]));
             let approach = Approach::of(&ends[bodies[0]], &ends[bodies[1]]);
-            step = step.min(before_meeting(&approach, (reach, radii), step));
+            step = step.min(before_meeting(&approach, (range, radii), step));
         }
     }
     step
@@ -135,9 +135,9 @@ fn before_any_meeting(model: &Model, ends: &[StepEnd], within: f64, longest: f64
 
 /// The longest step [s] after which two bodies of these radii that are out of a reach may be at another distance within
 /// it, at most `longest`.
-fn before_meeting(approach: &Approach, (reach, radii): (f64, [f64; 2]), longest: f64) -> f64 {
-    let within = half_cutoff(reach, radii);
-    if approach.distance(0.0) <= cutoff(reach, radii) {
+fn before_meeting(approach: &Approach, (range, radii): (f64, [f64; 2]), longest: f64) -> f64 {
+    let within = half_cutoff(range, radii);
+    if approach.distance(0.0) <= cutoff(range, radii) {
         return longest;
     }
     let nearest = approach.nearest(longest);

@@ -2,11 +2,11 @@
 //!
 //!   f = a + b p^k:   ∂f/∂p = w (f(p₁) − f(p)),   w = (k/p)/((p₁/p)^k − 1)
 //!
-//! whatever p₁ is, with one neighbour instead of four, and far away: p^k doubles. Rounding leaves that of f over b p^k.
-//! Loads are sums, and accelerations are linear in them where every body has inertia and there is no fluid. So k = 1
-//! for strengths of laws, moduli, viscosities and gravity; ν for the reference gap of a law α (d/d₀)^−ν; −1 for the
-//! density of a body that nothing guides or joins to others. Powers of the ledger go as the rates do, but for the
-//! density.
+//! whatever p₁ is, with one neighbour instead of four, and far away: p^k doubles, at k = 1 it changes by |p|. Rounding
+//! leaves that of f over b p^k. Loads are sums, and accelerations are linear in them where every body has inertia and
+//! there is no fluid. So k = 1 for strengths of laws, moduli, viscosities and gravity; ν for the reference gap of a law
+//! α (d/d₀)^−ν; −1 for the density of a body that nothing guides or joins to others, if no part of it weighs by itself.
+//! Powers of the ledger go as the rates do, but for the density.
 //!
 //! It is known of no scene in which other numbers follow from this one: laws from what a contact does, reaches from
 //! gaps, a lattice from its rest.
@@ -135,7 +135,7 @@ fn exponent(scene: &Scene, number: &SceneNumber) -> Option<f64> {
     // A reach may be one of gaps at rest, which go with weights.
     let reaches = file.contact.iter().any(|contact| contact.reach.is_some());
     match number.key.split('.').map(str::trim).collect::<Vec<_>>()[..] {
-        ["contact", index, law, number] => {
+        ["contact", index, law, entry] => {
             let contact = file.contact.get(index.parse::<usize>().ok()?)?;
             let support = contact.support.as_ref()?;
             let is_plane = file.support.iter().any(|of| of.name == *support && of.plane.is_some());
@@ -144,7 +144,7 @@ fn exponent(scene: &Scene, number: &SceneNumber) -> Option<f64> {
             if !is_plane || is_bounded || contact.reach.is_some() {
                 return None;
             }
-            match (law, number) {
+            match (law, entry) {
                 ("repulsion", "alpha") | ("damping" | "friction" | "adhesion", "beta") => Some(1.0),
                 ("repulsion", "d0") => contact.repulsion.as_ref().map(|law| law.nu.0),
                 ("damping", "d0") => contact.damping.as_ref().map(|law| law.nu.0),
@@ -158,7 +158,9 @@ fn exponent(scene: &Scene, number: &SceneNumber) -> Option<f64> {
             let own = file.body.get(named)?;
             let has_own_kinetic = own.affine.as_ref().is_some_and(|affine| affine.kinetic.is_some());
             let attracts = file.world.self_gravity.is_some();
-            let is_inverse = !has_own_kinetic && !attracts && own.contractile.is_none() && own.keep.is_none();
+            let is_even = !own.shape.as_ref().is_some_and(|shape| shape.weighs());
+            let is_inverse =
+                is_even && !has_own_kinetic && !attracts && own.contractile.is_none() && own.keep.is_none();
             is_inverse.then_some(INVERSE)
         }
         ["body", _, "affine", "viscosity"] | ["body", _, "affine", "internal_friction", "shear" | "bulk"] => Some(1.0),
@@ -266,5 +268,13 @@ mod tests {
         assert!(unknown(&["contact.0.friction.mu=0.3"], "contact.0.repulsion.alpha"));
         assert!(unknown(&["contact.0.damping.one_sided=true"], "contact.0.repulsion.alpha"));
         assert!(unknown(&["fluid={ viscosity = 1 }"], "world.gravity.2"));
+        assert!(unknown(&["body.die.keep={ axis = [0, 0, 1] }"], "body.die.density"));
+        let half = "shape = { box = { size = [0.02, 0.02, 0.01] } }, offset = [0, 0";
+        let of_lead = |weight: &str| {
+            let parts = format!("{{ {half}, 0.005] }}, {{ {half}, -0.005]{weight} }}");
+            format!("body.die.shape={{ union = {{ parts = [{parts}] }} }}")
+        };
+        assert!(unknown(&[&of_lead(", density = 11000")], "body.die.density"));
+        assert!(!unknown(&[&of_lead("")], "body.die.density"));
     }
 }

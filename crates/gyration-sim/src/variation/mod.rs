@@ -225,10 +225,10 @@ impl SceneVariation {
     ) -> Result<Vec<f64>, NoDerivative> {
         if let Some(known) = &self.known {
             let (workspace, mut rows) = (&mut self.workspace, [Vec::new(), Vec::new()]);
-            for (scene, out) in [self.levels.base(), known.scene()].into_iter().zip(&mut rows) {
-                row(&scene.built().model, workspace, state, out)?;
-            }
-            if rows[0] == rows[1] {
+            let mut scenes = [self.levels.base(), known.scene()].into_iter().zip(&mut rows);
+            // A neighbour that does not know the state tells nothing; nearer ones may.
+            let are_known = scenes.all(|(scene, out)| row(&scene.built().model, workspace, state, out).is_ok());
+            if are_known && rows[0] == rows[1] {
                 return Ok(vec![0.0; rows[0].len()]);
             }
         }

@@ -14,7 +14,8 @@ const BAD: f64 = 1e100;
 /// The standard deviation, in u, with which the start counts as a measurement of each number: what nothing else tells
 /// stays there, and what is told with a standard error σ moves by σ²/10⁶ of its way at most.
 pub(super) const START: f64 = 1e3;
-/// Digits to which the search goes: those of the derivatives.
+/// By what part of itself a step of the search may still lessen χ². Rebounds have derivatives to 1e-6: where they leave
+/// something, the numbers found are off by some 1e-6 of what is left, in standard deviations.
 const TOLERANCE: f64 = 1e-10;
 
 /// Evaluations after which a search looks whether one measurement leads it astray.

@@ -15,7 +15,8 @@ const FARTHEST: f64 = 10.0;
 const LOOKS: usize = 2;
 /// Steps of the golden section behind that: the maximum is then known to half of the digits, the force to all.
 const SECTIONS: usize = 45;
-/// The largest force towards the support over all gaps.
+
+/// That force [N].
 pub(super) fn pull_off(scene: &Scene, experiment: &Experiment, nearby: &mut Nearby) -> Result<f64, String> {
     let built = scene.built();
     let (model, index) = (&built.model, body(&built.model, experiment)?);

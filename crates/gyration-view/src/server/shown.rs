@@ -122,15 +122,15 @@ mod tests {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap();
         let (given_up, told) = std::sync::mpsc::channel();
         let work = move || {
-            while Interruption::due().is_none() {
-                std::thread::yield_now();
-            }
-            given_up.send(()).unwrap();
+            // Ten seconds, if it never is.
+            let asks = (0..10_000).take_while(|_| Interruption::due().is_none());
+            let asked = asks.inspect(|_| std::thread::sleep(std::time::Duration::from_millis(1))).count();
+            given_up.send(asked < 10_000).unwrap();
             Ok(())
         };
         let waited = async { tokio::time::timeout(std::time::Duration::from_millis(1), apart(work)).await };
         assert!(runtime.block_on(waited).is_err());
-        told.recv().unwrap();
+        assert!(told.recv().unwrap());
         assert!(runtime.block_on(apart(|| Ok(Interruption::due()))).is_ok_and(|due| due.is_none()));
     }
 

@@ -9,7 +9,7 @@ use super::side::Side;
 use crate::surface::Surface;
 use std::sync::Arc;
 
-/// The part of a reach at whose end a pair is out of it already, lest the last digit of a distance decides: χ, of fifth
+/// The part of a range at whose end a pair is out of it already, lest the last digit of a distance decides: χ, of fifth
 /// order there, is below any digit of U.
 pub const EDGE: f64 = 1e-9;
 
@@ -26,8 +26,10 @@ const LEAST_BALLS: f64 = 1e-12;
 pub struct PairForm {
     /// What acts between them.
     pub laws: Arc<PairLaws>,
-    /// A distance from which on there is nothing [m]; none if it is everywhere.
+    /// The distance that is said [m]; none if it acts everywhere.
     pub reach: Option<f64>,
+    /// From this distance on nothing acts [m].
+    pub range: Option<f64>,
     /// U_c [J]: below it nothing acts.
     pub(super) threshold: f64,
     /// The radius of each about its centre of mass, in the reference shape [m].
@@ -53,13 +55,14 @@ impl PairForm {
         surfaces: [&Surface; 2],
         radii: [f64; 2],
     ) -> Self {
-        let (reach, threshold) = threshold.map_or((None, 0.0), |begins| (Some(begins.reach), begins.energy));
+        let (reach, range) = (threshold.map(|begins| begins.reach), threshold.map(|begins| begins.range));
+        let threshold = threshold.map_or(0.0, |begins| begins.energy);
         let balls = match surfaces.map(Surface::ball) {
             [Some(one), Some(other)] => Some(Balls::new(&laws, [one, other])),
             _ => None,
         };
         let shares = shares(surfaces.map(Surface::area));
-        Self { laws, reach, threshold, radii, shares, balls }
+        Self { laws, reach, range, threshold, radii, shares, balls }
     }
 
     /// The radius of each about its centre of mass, in the reference shape [m].
@@ -103,16 +106,16 @@ impl PairForm {
 
     /// The distance of the centres from which on two rigid bodies do nothing to each other [m]; none if there is none.
     pub fn cutoff(&self) -> Option<f64> {
-        self.reach.map(|reach| cutoff(reach, self.radii))
+        self.range.map(|range| cutoff(range, self.radii))
     }
 }
 
 /// The distance of the centres from which on two rigid bodies of these radii do nothing to each other [m].
-pub fn cutoff(reach: f64, radii: [f64; 2]) -> f64 {
-    reach * (1.0 - EDGE) + radii[0] + radii[1]
+pub fn cutoff(range: f64, radii: [f64; 2]) -> f64 {
+    range * (1.0 - EDGE) + radii[0] + radii[1]
 }
 
-/// The distance of the centres at which these are as far apart as the half of their reach at least [m].
-pub fn half_cutoff(reach: f64, radii: [f64; 2]) -> f64 {
-    reach + radii[0] + radii[1] - 0.5 * reach
+/// The distance of the centres at which these are as far apart as the half of their range at least [m].
+pub fn half_cutoff(range: f64, radii: [f64; 2]) -> f64 {
+    range + radii[0] + radii[1] - 0.5 * range
 }

@@ -54,8 +54,10 @@ pub struct Mass<'a> {
 /// Where the force of two bodies begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Threshold {
-    /// A distance from which on there is none [m].
+    /// The distance that is said [m].
     pub reach: f64,
+    /// From this distance on there is none [m]: the reach, or less.
+    pub range: f64,
     /// U_c [J].
     pub energy: f64,
 }
@@ -63,7 +65,7 @@ pub struct Threshold {
 impl Threshold {
     /// At a distance [m].
     pub fn at(laws: &PairLaws, reach: f64, surfaces: [&Surface; 2]) -> Self {
-        Self { reach, energy: laws.most(reach, surfaces.map(Surface::area)) }
+        Self { reach, range: reach, energy: laws.most(reach, surfaces.map(Surface::area)) }
     }
 }
 
@@ -76,7 +78,7 @@ impl Reach {
         }
     }
 
-    /// What is said for two bodies [m].
+    /// The distance for two bodies [m].
     fn of(&self, laws: &PairLaws, bodies: [Mass; 2]) -> f64 {
         match self {
             Self::Length(reach) => *reach,
@@ -91,23 +93,25 @@ impl Reach {
     }
 
     /// Where the force of two bodies begins. U_c at so many gaps is that of two balls, if they are; else that of U_m,
-    /// to which balls come nearer only.
+    /// which balls have at a smaller distance only.
     pub fn threshold(&self, laws: &PairLaws, bodies: [Mass; 2]) -> Threshold {
         let surfaces = bodies.map(|body| body.surface);
         let threshold = Threshold::at(laws, self.of(laws, bodies), surfaces);
         let Some(balls) = balls(laws, surfaces) else { return threshold };
-        let energy = match self {
-            Self::Gaps { .. } => balls.at(threshold.reach).map_or(threshold.energy, |(energy, _)| energy),
-            Self::Length(_) => threshold.energy,
-        };
-        Threshold { reach: threshold.reach.min(balls.range(energy)), energy }
+        match self {
+            Self::Gaps { .. } => {
+                let energy = balls.at(threshold.reach).map_or(threshold.energy, |(energy, _)| energy);
+                Threshold { energy, ..threshold }
+            }
+            Self::Length(reach) => Threshold { range: reach.min(balls.range(threshold.energy)), ..threshold },
+        }
     }
 
-    /// A distance from which on two bodies do nothing to each other [m].
+    /// The distance from which on two bodies do nothing to each other [m].
     pub fn range(&self, laws: &PairLaws, bodies: [Mass; 2]) -> f64 {
-        match balls(laws, bodies.map(|body| body.surface)) {
-            Some(_) => self.threshold(laws, bodies).reach,
-            None => self.of(laws, bodies),
+        match self {
+            Self::Gaps { .. } => self.of(laws, bodies),
+            Self::Length(_) => self.threshold(laws, bodies).range,
         }
     }
 }
@@ -238,14 +242,14 @@ mod tests {
                     let bodies = [0, 1].map(|i| Mass { surface: &surfaces[i], mass: 1.0 });
                     let begins = Reach::Length(reach).threshold(&laws, bodies);
                     let at_least = laws.most(reach, surfaces.each_ref().map(Surface::area));
-                    assert_eq!(begins.energy, at_least, "the law of a length stays");
+                    assert_eq!((begins.reach, begins.energy), (reach, at_least), "the law of a length stays");
                     let balls = balls(&laws, surfaces.each_ref()).unwrap();
                     let energy = |gap: f64| balls.at(gap).unwrap().0;
                     let case = format!("{exponent} {radii:?} {reach}");
-                    assert!(begins.reach <= reach && energy(begins.reach) <= begins.energy * (1.0 + 1e-12), "{case}");
+                    assert!(begins.range <= reach && energy(begins.range) <= begins.energy * (1.0 + 1e-12), "{case}");
                     if exponent >= 6.0 && reach < 0.1 * radii[0].min(radii[1]) {
-                        assert!(energy(0.999 * begins.reach) > begins.energy, "{case}");
-                        widest = widest.min(begins.reach / reach);
+                        assert!(energy(0.999 * begins.range) > begins.energy, "{case}");
+                        widest = widest.min(begins.range / reach);
                     }
                 }
             }

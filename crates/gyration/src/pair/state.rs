@@ -201,10 +201,10 @@ impl PairForm {
     /// wide as the reach has no more potential than U_c, and the plane of least potential has less.
     pub fn is_out_of_reach(&self, sides: [&Side; 2], guess: &Guess) -> bool {
         let is_rigid = sides.iter().all(|side| side.deformation.is_none());
-        let Some(reach) = self.reach.filter(|_| is_rigid && self.balls.is_none()) else { return false };
+        let Some(range) = self.range.filter(|_| is_rigid && self.balls.is_none()) else { return false };
         let across = Plane { normal: guess.normal, offset: 0.0 };
         let gaps = self.halves(sides).each_ref().map(|half| half.smallest_gap(&across).0);
-        gaps[0] + gaps[1] >= reach
+        gaps[0] + gaps[1] >= range
     }
 
     /// The slab between two bodies along the normal of their plane.

@@ -20,12 +20,13 @@ fn warning(model: &Model, start: &State, rule: usize) -> Option<String> {
     model.rules().all()[rule].reach.filter(|_| model.rules().all()[rule].laws.held_gap().is_some())?;
     let two = Joined::of_rule(model, rule).next()?;
     let pair = two.pairs(model).next()?;
-    let reach = pair.form.reach?;
-    let part = TrialPair::of(model, start, &two, &pair).held_beyond(reach).filter(|part| *part > MOST)?;
+    let (reach, range) = (pair.form.reach?, pair.form.range?);
+    let part = TrialPair::of(model, start, &two, &pair).held_beyond(range).filter(|part| *part > MOST)?;
     let [one, other] = pair.parties.map(|party| model.party_name(party));
+    let nearer = if range < reach { format!(", {} m for two balls,", significant(range, 3)) } else { String::new() };
     let (reach, part) = (significant(reach, 3), significant(part, 2));
     Some(format!(
-        "at the reach of {reach} m \"{one}\" and \"{other}\" would still have {part} of the energy by which they hold \
+        "at the reach of {reach} m{nearer} \"{one}\" and \"{other}\" would still have {part} of the energy by which they hold \
          each other, which is left out beyond: write a longer one, or leave it out"
     ))
 }
