@@ -21,7 +21,7 @@
 use super::balance::TrialGaps;
 use super::slip::Slip;
 use gyration::contact::{
-    Contact, ContactLoads, ContactScratch, ContactSlopes, Deformation, Meeting, RelativeMotion, Term,
+    Contact, ContactLoads, ContactScratch, ContactSlopes, Deformation, LawKind, Meeting, RelativeMotion, Term,
 };
 use gyration::load::Party;
 use gyration::load::{LoadSlopes, Loads};
@@ -242,11 +242,17 @@ impl<'a> Approach<'a> {
         central.all(|term| term.coefficient >= 0.0)
     }
 
+    /// Whether any law resists what moves across the normal: of a resistance along it alone rounding is left there.
+    fn resists_sliding(&self) -> bool {
+        let laws = self.contacts.iter().flat_map(|contact| contact.law_set.laws());
+        laws.filter(|law| law.kind() == LawKind::Friction).flat_map(|law| law.terms()).flatten().any(acts)
+    }
+
     /// What the body does along a slope, where the laws have these slopes and this stiffness along n.
     fn descent(&self, gap: f64, slopes: &LoadSlopes, stiffness: f64) -> Option<Descent> {
         let down = self.along.try_normalize(0.0)?;
         let (acceleration, resistance) = (self.along.norm(), against(&slopes.by_rate, &down));
-        if resistance <= 0.0 {
+        if !self.resists_sliding() || resistance <= 0.0 {
             return Some(Descent::Accelerates { acceleration });
         }
         if self.is_round(self.turning_stiffness(slopes, &self.normal.cross(&down)), stiffness) {
@@ -274,7 +280,7 @@ impl<'a> Approach<'a> {
         let across = self.normal.cross(&Vec3::ith(self.normal.iamin(), 1.0)).normalize();
         let stiffness = against(&slopes.by_place, &self.normal);
         let normal_resistance = against(&slopes.by_rate, &self.normal);
-        let tangential_resistance = against(&slopes.by_rate, &across);
+        let tangential_resistance = if self.resists_sliding() { against(&slopes.by_rate, &across) } else { 0.0 };
         let stable = stiffness > 0.0;
         let frequency = stable.then(|| (stiffness / self.mass).sqrt());
         let damped = frequency.filter(|_| normal_resistance > 0.0);
