@@ -140,7 +140,7 @@ async function bytes(path: string): Promise<ArrayBuffer> {
 }
 
 /** What the server gives at a path relative to the address of the page, which has its token. */
-export async function answer(path: string, signal?: AbortSignal): Promise<Response> {
+export async function answer(path: string, signal: AbortSignal | null = null): Promise<Response> {
   const response = await fetch(path, { cache: "no-store", signal });
   if (!response.ok)
     throw new ServerError((await response.text()) || `The server answers ${response.status}.`);

@@ -35,8 +35,7 @@ function asked() {
     fail: (e: Error) => void;
   }[] = [];
   const fields = new Fields(
-    (row, width, signal) =>
-      new Promise((give, fail) => waiting.push({ row, width, signal, give, fail })),
+    (row, width, signal) => new Promise((give, fail) => waiting.push({ row, width, signal, give, fail })),
   );
   return { fields, waiting };
 }
