@@ -268,7 +268,8 @@ mod tests {
         assert!(unknown(&["contact.0.friction.mu=0.3"], "contact.0.repulsion.alpha"));
         assert!(unknown(&["contact.0.damping.one_sided=true"], "contact.0.repulsion.alpha"));
         assert!(unknown(&["fluid={ viscosity = 1 }"], "world.gravity.2"));
-        assert!(unknown(&["body.die.keep={ axis = [0, 0, 1] }"], "body.die.density"));
+        let kept = ["body.die.keep={ axis = [0, 0, 1] }", "body.die.angular_velocity=[0, 0, 3]"];
+        assert!(unknown(&kept, "body.die.density"));
         let half = "shape = { box = { size = [0.02, 0.02, 0.01] } }, offset = [0, 0";
         let of_lead = |weight: &str| {
             let parts = format!("{{ {half}, 0.005] }}, {{ {half}, -0.005]{weight} }}");
