@@ -20,7 +20,7 @@
 //! | hemisphere | `hemisphere`: zone in closed form, arcs `graded` | `deformed/hemisphere`: `graded`, `points` |
 //! | wall | `cylinder`, `cone`: `rulings` around a `ring` | `deformed/walls`: `weighted_rulings` around an `own_ring` |
 //! | disk | `disk`: chords around a `ring` | the same times one weight |
-//! | torus | `torus`: `closed_circle` or `ring` within a `ring` | `deformed/torus`: `own_ring` in `own_ring`, `points` |
+//! | torus | `torus`: `closed_circle` or `ring` in a `ring` | `deformed/torus`: `own_ring` in `own_ring`, `points` |
 //!
 //! Which formula, by exponent, for a request of order n:
 //!

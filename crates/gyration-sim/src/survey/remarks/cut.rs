@@ -26,7 +26,7 @@ fn warning(model: &Model, start: &State, rule: usize) -> Option<String> {
     let nearer = if range < reach { format!(", {} m for two balls,", significant(range, 3)) } else { String::new() };
     let (reach, part) = (significant(reach, 3), significant(part, 2));
     Some(format!(
-        "at the reach of {reach} m{nearer} \"{one}\" and \"{other}\" would still have {part} of the energy by which they hold \
-         each other, which is left out beyond: write a longer one, or leave it out"
+        "at the reach of {reach} m{nearer} \"{one}\" and \"{other}\" would still have {part} of the energy by which \
+         they hold each other, which is left out beyond: write a longer one, or leave it out"
     ))
 }
