@@ -152,8 +152,8 @@ impl Sensitivities {
         }
     }
 
-    /// The same at the time of the first event that is wanted, where the run is then left; nowhere if there is none
-    /// before the end, or before `monitor` stops it.
+    /// The same at the time of the first event that is wanted, where the run is then left. Without one before the end,
+    /// or before `monitor` stops the run, there are no times and no derivatives.
     ///
     /// Derivatives are at that fixed time, not along the event. A step of S may have this error, relative to the
     /// largest entry of a column, where rtol asks for a smaller one: the run itself, and the quantities, are not

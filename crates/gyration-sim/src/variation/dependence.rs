@@ -211,10 +211,36 @@ mod tests {
         Scene::parse("scene", SCENE, Path::new(""), &settings).unwrap()
     }
 
+    /// Compares what one neighbour tells with what four do.
+    fn compare(scene: &Scene, key: &str) {
+        let built = scene.built();
+        let number = || SceneNumber::find(scene, key).unwrap();
+        let works = if key.ends_with("density") { 0 } else { built.model.works().len() };
+        let scales = vec![1.0; built.state.bodies.len() + works];
+        let of = |variation: &mut SceneVariation| {
+            let at = (0.0, built.state.bodies.as_slice(), scales.as_slice());
+            variation.rates(&built.model, &mut BaseRates::default(), at).unwrap()
+        };
+        let by_four = of(&mut SceneVariation::new(scene, number()).unwrap());
+        let mut variation = SceneVariation::along_run(scene, number()).unwrap();
+        let by_one = of(&mut variation);
+        // A neighbour and the scene itself, and no other one.
+        assert!(variation.known.is_some() && variation.evaluations() == 1, "{key}");
+        let mut base = BaseRates::default();
+        let here = base.at(&built.model, 0.0, &built.state.bodies, works).unwrap();
+        let fastest = here.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
+        // Roundings of the rates over a ten thousandth of the number.
+        let rounding = 30.0 * f64::EPSILON * fastest / (1e-4 * variation.scale());
+        let largest = by_four.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
+        let pairs = by_one.iter().zip(&by_four).take(scales.len());
+        let off = pairs.fold(0.0, |most: f64, (one, four)| most.max((one - four).abs()));
+        println!("{key}: {off:e} of {largest:e}, rounding {rounding:e}");
+        assert!(largest > 0.0 && off < 1e-10 * largest + rounding, "{key}: {off:e}");
+    }
+
     #[test]
     fn one_neighbour_tells_what_four_do() {
         let scene = scene(&[]);
-        let built = scene.built();
         let keys = [
             "contact.0.repulsion.alpha",
             "contact.0.repulsion.d0",
@@ -228,32 +254,33 @@ mod tests {
             "body.die.density",
             "body.soft.density",
             "body.soft.affine.viscosity",
-            "body.soft.affine.material.mooney_rivlin.c1",
-            "body.soft.affine.material.mooney_rivlin.c2",
         ];
-        for key in keys {
-            let number = || SceneNumber::find(&scene, key).unwrap();
-            let works = if key.ends_with("density") { 0 } else { built.model.works().len() };
-            let scales = vec![1.0; built.state.bodies.len() + works];
-            let of = |variation: &mut SceneVariation| {
-                let at = (0.0, built.state.bodies.as_slice(), scales.as_slice());
-                variation.rates(&built.model, &mut BaseRates::default(), at).unwrap()
-            };
-            let by_four = of(&mut SceneVariation::new(&scene, number()).unwrap());
-            let mut variation = SceneVariation::along_run(&scene, number()).unwrap();
-            let by_one = of(&mut variation);
-            // A neighbour and the scene itself, and no other one.
-            assert!(variation.known.is_some() && variation.evaluations() == 1, "{key}");
-            let mut base = BaseRates::default();
-            let here = base.at(&built.model, 0.0, &built.state.bodies, works).unwrap();
-            let fastest = here.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
-            // Roundings of the rates over a ten thousandth of the number.
-            let rounding = 30.0 * f64::EPSILON * fastest / (1e-4 * variation.scale());
-            let largest = by_four.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
-            let pairs = by_one.iter().zip(&by_four).take(scales.len());
-            let off = pairs.fold(0.0, |most: f64, (one, four)| most.max((one - four).abs()));
-            println!("{key}: {off:e} of {largest:e}, rounding {rounding:e}");
-            assert!(largest > 0.0 && off < 1e-10 * largest + rounding, "{key}: {off:e}");
+        keys.iter().for_each(|key| compare(&scene, key));
+    }
+
+    #[test]
+    fn stresses_are_linear_in_all_moduli() {
+        let materials: [(&str, &[&str]); 9] = [
+            ("mooney_rivlin = { c1 = 3000, c2 = 1000, bulk = 9000 }", &["c1", "c2", "bulk"]),
+            ("neo_hookean = { shear = 3000, bulk = 9000 }", &["shear", "bulk"]),
+            ("neo_hookean = { youngs_modulus = 9000, poissons_ratio = 0.3 }", &["youngs_modulus"]),
+            ("ogden = { mu = [3000], alpha = [2.5], bulk = 9000 }", &["bulk"]),
+            ("fung = { shear = 3000, exponent = 2, bulk = 9000 }", &["shear", "bulk"]),
+            ("neo_hookean_log = { mu = 3000, lambda = 9000 }", &["mu", "lambda"]),
+            ("st_venant_kirchhoff = { mu = 3000, lambda = 9000 }", &["mu", "lambda"]),
+            ("hencky = { shear = 3000, bulk = 9000 }", &["shear", "bulk"]),
+            ("orthogonality = { kappa = 3000 }", &["kappa"]),
+        ];
+        for (material, moduli) in materials {
+            let name = material.split(' ').next().unwrap();
+            let scene = scene(&[
+                &format!("body.soft.affine.material={{ {material} }}"),
+                "body.soft.affine.internal_friction={ shear = 2, bulk = 3 }",
+            ]);
+            moduli.iter().for_each(|modulus| compare(&scene, &format!("body.soft.affine.material.{name}.{modulus}")));
+            ["shear", "bulk"]
+                .iter()
+                .for_each(|key| compare(&scene, &format!("body.soft.affine.internal_friction.{key}")));
         }
     }
 

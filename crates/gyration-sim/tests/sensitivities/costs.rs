@@ -1,9 +1,9 @@
 //! What derivatives take beside a run, in counts; and derivatives at an event.
 
 use crate::sensitivities::support::{scene, strings};
+use gyration_sim::Unwatched;
 use gyration_sim::events::{APEX, Event};
 use gyration_sim::sensitivity::{At, Sensitivities};
-use gyration_sim::{Monitor, Progress, Reason};
 
 /// A die that is thrown and bounces.
 const DIE: &str = r#"
@@ -58,15 +58,6 @@ fn numbers_that_the_rates_go_with_by_a_power_take_one_evaluation_a_node() {
     assert!(ten.steps < 3 * ten.run_steps, "{ten:?}");
 }
 
-/// Never ends a run.
-struct Patient;
-
-impl Monitor for Patient {
-    fn after_step(&mut self, _: &Progress) -> Option<Reason> {
-        None
-    }
-}
-
 #[test]
 fn derivatives_at_an_event_are_those_of_a_run_that_ends_there() {
     let thrown = |until: &str| scene(DIE, &strings(&[until]));
@@ -76,7 +67,7 @@ fn derivatives_at_an_event_are_those_of_a_run_that_ends_there() {
         has_touched |= event.kind != APEX;
         has_touched && event.kind == APEX
     };
-    let found = Sensitivities::at_event(&thrown("time.end=1"), &keys, &columns, 0.0, is_apex, &mut Patient).unwrap();
+    let found = Sensitivities::at_event(&thrown("time.end=1"), &keys, &columns, 0.0, is_apex, &mut Unwatched).unwrap();
     let end = found.times[0];
     let shorter = thrown(&format!("time={{ end = {end:?}, sample = {end:?} }}"));
     let expected = Sensitivities::along(&shorter, &keys, &columns, At::End).unwrap();
@@ -87,6 +78,6 @@ fn derivatives_at_an_event_are_those_of_a_run_that_ends_there() {
         // rtol = 1e-8, and steps that differ.
         assert!(one.iter().zip(other).all(|(one, other)| (one - other).abs() < 1e-6 * size));
     }
-    let none = Sensitivities::at_event(&shorter, &keys, &columns, 0.0, |_| false, &mut Patient).unwrap();
+    let none = Sensitivities::at_event(&shorter, &keys, &columns, 0.0, |_| false, &mut Unwatched).unwrap();
     assert!(none.values.is_empty() && none.derivatives.iter().all(|derivatives| derivatives.rows.is_empty()));
 }
