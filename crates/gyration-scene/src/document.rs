@@ -1,10 +1,12 @@
-//! A document: the texts a scene comes from, their tree, and the errors found so far.
+//! A document: the texts a scene comes from, their tree, and the errors and files found so far.
 //!
 //! Bytes become lines and columns here and nowhere else.
 
 use crate::error::{ErrorKind, Excerpt, SceneError, SceneErrors};
+use crate::file_sum::FileSum;
 use crate::key::Key;
 use crate::tree::{Node, Span, Value};
+use std::collections::BTreeSet;
 
 /// A text with a name: the file, or an override.
 #[derive(Debug, Clone)]
@@ -31,9 +33,11 @@ pub(crate) struct Diagnostic {
 }
 
 /// Collects what is wrong, up to a number that no one reads: a file of megabytes must not take gigabytes of messages.
+/// Beside it stand the files that were read while it was looked for.
 #[derive(Debug, Default)]
 pub(crate) struct Diagnostics {
     found: Vec<Diagnostic>,
+    files: BTreeSet<FileSum>,
     /// What is being looked at.
     looking_at: ErrorKind,
 }
@@ -44,7 +48,7 @@ const MOST_DIAGNOSTICS: usize = 2000;
 impl Diagnostics {
     /// An empty collection of errors of this kind.
     pub(crate) fn of(looking_at: ErrorKind) -> Self {
-        Self { found: Vec::new(), looking_at }
+        Self { looking_at, ..Self::default() }
     }
 
     /// From here on, errors are of this kind.
@@ -67,6 +71,16 @@ impl Diagnostics {
                 self.found.push(diagnostic);
             }
         }
+    }
+
+    /// Keeps what was found in a file, once for each key.
+    pub(crate) fn add_file(&mut self, found: FileSum) {
+        self.files.insert(found);
+    }
+
+    /// The files that were read, by their keys.
+    pub(crate) fn into_files(self) -> Vec<FileSum> {
+        self.files.into_iter().collect()
     }
 
     /// Whether nothing is wrong so far.

@@ -17,6 +17,7 @@ mod check;
 mod document;
 mod error;
 pub mod file;
+mod file_sum;
 mod gallery;
 pub mod input;
 mod key;
@@ -41,6 +42,7 @@ pub use assemble::{
 };
 pub use error::{ErrorKind, LoadError, NotToml, ReadError, SceneError, SceneErrors};
 pub use file::{Method, Recorded};
+pub use file_sum::FileSum;
 pub use gallery::{NotInGallery, gallery, gallery_scene, gallery_title};
 pub use overriding::{Override, OverrideValue};
 pub use pressing::Pressing;

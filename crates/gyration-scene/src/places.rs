@@ -25,6 +25,15 @@ pub(crate) struct CopyPlace {
     pub(crate) angular_velocity: Vec3,
 }
 
+impl CopyPlace {
+    /// All that it says.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
+        let Self { displacement, turn, velocity, angular_velocity } = *self;
+        let vectors = [displacement, velocity, angular_velocity].into_iter().flat_map(<[f64; 3]>::from);
+        vectors.chain(turn.into_iter().flat_map(|Quaternion(turn)| turn))
+    }
+}
+
 /// The places of a grid, x fastest.
 pub(crate) fn grid(grid: &CopyGrid) -> Vec<CopyPlace> {
     let [along_x, along_y, along_z] = grid.count.map(|count| 0..count.0 as usize);

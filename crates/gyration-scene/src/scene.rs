@@ -4,6 +4,7 @@ use crate::assemble::{Built, WaveStart};
 use crate::document::Diagnostics;
 use crate::error::{ErrorKind, NotToml, SceneErrors};
 use crate::file::{Behaviour, LatticeWave, OneOrMany, SceneFile};
+use crate::file_sum::FileSum;
 use crate::key::Key;
 use crate::overriding::Override;
 use crate::units::without_rounding;
@@ -24,6 +25,7 @@ pub struct Scene {
     pub(crate) name: String,
     pub(crate) text: String,
     pub(crate) files: Files,
+    pub(crate) file_sums: Vec<FileSum>,
     pub(crate) overrides: Vec<Override>,
     pub(crate) file: SceneFile,
     /// What contacts of these indices do, instead of laws.
@@ -51,6 +53,11 @@ impl Scene {
     /// The folder to which paths in it are relative; empty where its files were handed over.
     pub fn base(&self) -> &Path {
         self.files.folder()
+    }
+
+    /// The files that it names, tables and meshes, by their keys, with a checksum of what was found in each.
+    pub fn file_sums(&self) -> &[FileSum] {
+        &self.file_sums
     }
 
     /// The overrides, in their order, as they would be written.

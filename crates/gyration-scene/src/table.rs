@@ -1,6 +1,7 @@
 //! Tables of numbers beside a scene: CSV files, with or without a line of names.
 
 use crate::error::ReadError;
+use crate::file_sum::sum_of;
 use crate::read::{self, NamedFile};
 use gyration::signal::{Interpolation, TableError, TensorTable};
 use gyration::tensor::Mat3;
@@ -51,6 +52,14 @@ impl TableFault {
     }
 }
 
+/// A table of tensors in time, with the checksum of its file.
+pub(crate) struct ReadTable {
+    /// The table.
+    pub(crate) table: TensorTable,
+    /// The checksum of its numbers.
+    pub(crate) sum: String,
+}
+
 /// What stands behind the symbol of a tensor for its entries, row by row.
 const TENSOR: [&str; 9] = ["_xx", "_xy", "_xz", "_yx", "_yy", "_yz", "_zx", "_zy", "_zz"];
 /// The same of the components of a vector.
@@ -68,7 +77,7 @@ pub(crate) fn read_tensors(
     file: NamedFile<'_>,
     symbol: char,
     interpolation: Interpolation,
-) -> Result<TensorTable, TableFault> {
+) -> Result<ReadTable, TableFault> {
     read_table(file, symbol, &TENSOR, interpolation)
 }
 
@@ -80,7 +89,7 @@ pub(crate) fn read_vectors(
     file: NamedFile<'_>,
     symbol: char,
     interpolation: Interpolation,
-) -> Result<TensorTable, TableFault> {
+) -> Result<ReadTable, TableFault> {
     read_table(file, symbol, &VECTOR, interpolation)
 }
 
@@ -92,7 +101,7 @@ pub(crate) fn read_numbers(
     file: NamedFile<'_>,
     symbol: char,
     interpolation: Interpolation,
-) -> Result<TensorTable, TableFault> {
+) -> Result<ReadTable, TableFault> {
     read_table(file, symbol, &NUMBER, interpolation)
 }
 
@@ -122,7 +131,7 @@ fn read_table(
     symbol: char,
     entries: &[&str],
     interpolation: Interpolation,
-) -> Result<TensorTable, TableFault> {
+) -> Result<ReadTable, TableFault> {
     let bytes = read::named(file)?;
     let path = file.0.path(file.1);
     let content = content(&bytes);
@@ -131,14 +140,17 @@ fn read_table(
         let names: Vec<String> = entries.iter().map(|entry| format!(", {symbol}{entry}")).collect();
         TableFault::Malformed { columns: format!("`t{}`", names.concat()), path: path.clone(), line, reason }
     })?;
-    TensorTable::new(rows.iter().map(|row| (row.time, row.value)).collect(), interpolation).map_err(|source| {
+    let table = TensorTable::new(rows.iter().map(|row| (row.time, row.value)).collect(), interpolation);
+    let table = table.map_err(|source| {
         let row = match source {
             TableError::Empty => 1,
             TableError::NotFinite { row } | TableError::NotSorted { row, .. } => row,
         };
         let line = rows.get(row - 1).map_or(1, |row| line_of_row(content, row.start));
         TableFault::Rows { path: path.clone(), line, source }
-    })
+    })?;
+    let numbers = rows.iter().flat_map(|row| std::iter::once(row.time).chain(row.value.iter().copied()));
+    Ok(ReadTable { table, sum: sum_of(numbers) })
 }
 
 /// A row of a table.

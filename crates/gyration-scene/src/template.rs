@@ -114,9 +114,10 @@ impl Template {
         match (partial.complete(), built) {
             (Some(file), Some((built, forms))) if diagnostics.is_empty() => {
                 let (name, text, files) = (self.stem.clone(), self.text().to_owned(), self.files.clone());
+                let (overrides, file_sums) = (overrides.to_vec(), diagnostics.into_files());
                 let unknown = (!forms.is_empty() || built.waves.is_some())
                     .then(|| Box::new(Unknown { forms, document: document.into_owned() }));
-                Ok(Scene { name, text, files, overrides: overrides.to_vec(), file, behaviours, built, unknown })
+                Ok(Scene { name, text, files, file_sums, overrides, file, behaviours, built, unknown })
             }
             _ => Err(document.errors(diagnostics)),
         }

@@ -13,6 +13,7 @@ mod contractile_tables;
 mod copies;
 mod corpus;
 mod errors;
+mod file_sums;
 mod joints;
 mod keeps;
 mod kinetic;

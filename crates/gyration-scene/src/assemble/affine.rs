@@ -5,7 +5,7 @@ use super::start::matrix;
 use crate::check::Reporter;
 use crate::file::{self, Frame as WrittenFrame};
 use crate::key::Key;
-use crate::table::read_tensors;
+use crate::table::{ReadTable, read_tensors};
 use gyration::affine::{AffineBody, AnisotropicFriction, Viscosity};
 use gyration::body::Affine;
 use gyration::load::{Couple, Frame, LinearResistance, ResistanceError};
@@ -155,7 +155,10 @@ fn couple(written: &file::Couple, key: &Key, files: &Files, reporter: &mut Repor
     match written {
         file::Couple::Value(rows) => Some(Couple::Constant(matrix(rows))),
         file::Couple::Table(path) => match read_tensors((files, path), 'N', Interpolation::Linear) {
-            Ok(table) => Some(Couple::Table(table)),
+            Ok(ReadTable { table, sum }) => {
+                reporter.read(&key.key("table"), path, sum);
+                Some(Couple::Table(table))
+            }
             Err(error) => {
                 reporter.note(&key.key("table"), error.to_string(), error.help(files));
                 None

@@ -3,6 +3,7 @@
 use super::orientation::orientation;
 use crate::check::Reporter;
 use crate::file;
+use crate::file_sum::sum_of;
 use crate::key::Key;
 use crate::quantity::si;
 use gyration::shape::{
@@ -75,14 +76,18 @@ impl ShapeBuilder<'_, '_> {
             Some(Ok(bytes)) => parse_mesh(&path, bytes, scale),
             Some(Err(source)) => Err(MeshError::Unreadable { path, source }),
         };
-        read.map_err(|error| {
+        let read = read.map_err(|error| {
             let help = match error {
                 MeshError::Unreadable { .. } => self.files.help(),
                 _ => "mend the file, or choose another",
             };
             self.reporter.note(&key.key("file"), error.to_string(), help);
-        })
-        .ok()
+        });
+        let read = read.ok()?;
+        let corners = read.triangles.iter().flatten().map(|corner| *corner as f64);
+        let numbers = read.vertices.iter().flatten().copied().chain(corners);
+        self.reporter.read(&key.key("file"), &mesh.file, sum_of(numbers));
+        Some(read)
     }
 
     fn points(&mut self, points: &[file::PointMass], key: &Key) -> Option<Points> {

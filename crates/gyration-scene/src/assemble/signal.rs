@@ -10,13 +10,13 @@ use crate::file::{Interpolation as Written, Ramp, Rows, Signal as WrittenSignal,
 use crate::key::Key;
 use crate::quantity::{AnyQuantity, Velocity, si};
 use crate::read::NamedFile;
-use crate::table::{TableFault, read_numbers, read_tensors, read_vectors};
+use crate::table::{ReadTable, TableFault, read_numbers, read_tensors, read_vectors};
 use crate::units::shown;
 use gyration::signal::{Interpolation, Signal, TensorTable, Wave};
 use gyration::tensor::{Mat3, Vec3};
 
 /// Reads a table: its path, what messages call its tensors, what it does between its times.
-pub(super) type Reader = fn(NamedFile<'_>, char, Interpolation) -> Result<TensorTable, TableFault>;
+pub(super) type Reader = fn(NamedFile<'_>, char, Interpolation) -> Result<ReadTable, TableFault>;
 
 /// What a signal of the file is at a time.
 pub(super) trait Value {
@@ -115,7 +115,10 @@ impl SignalBuilder<'_, '_> {
         let files = self.context.files;
         let path = files.path(&table.file);
         let made = match read((files, &table.file), self.symbol, interpolation) {
-            Ok(made) => made,
+            Ok(ReadTable { table: made, sum }) => {
+                self.reporter.read(key, &table.file, sum);
+                made
+            }
             Err(error) => {
                 self.reporter.note(key, error.to_string(), error.help(files));
                 return None;

@@ -2,6 +2,7 @@
 
 use super::{Placed, Reporter};
 use crate::file::{Body, Copies as Written, CopyGrid, RandomCopies};
+use crate::file_sum::sum_of;
 use crate::key::{Key, split_copy};
 use crate::places::{CopyPlace, MOST_COPIES, grid, read_places};
 use crate::quantity::si;
@@ -34,7 +35,10 @@ impl Copies {
                 if is_sound { Self::Placed(grid(written)) } else { Self::Unknown }
             }
             Written::Places(file) => match read_places((files, file)) {
-                Ok(places) => Self::Placed(places),
+                Ok(places) => {
+                    reporter.read(&key.key("places"), file, sum_of(places.iter().flat_map(CopyPlace::numbers)));
+                    Self::Placed(places)
+                }
                 Err(fault) => {
                     reporter.note(&key.key("places"), fault.to_string(), fault.help(files));
                     Self::Unknown

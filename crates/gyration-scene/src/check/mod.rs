@@ -26,9 +26,10 @@ pub(crate) use structure::structure;
 pub(crate) use values::{direction, values};
 
 use crate::document::{Diagnostics, Document};
+use crate::file_sum::FileSum;
 use crate::key::Key;
 
-/// Reports diagnostics by the keys of a document.
+/// Reports diagnostics, and files that were read, by the keys of a document.
 pub(crate) struct Reporter<'a> {
     pub(crate) document: &'a Document,
     pub(crate) diagnostics: &'a mut Diagnostics,
@@ -76,5 +77,11 @@ impl<'a> Reporter<'a> {
             span.end = span.start + rest;
         }
         self.diagnostics.at(span, key, self.told(message), help);
+    }
+
+    /// Keeps the checksum of a file that the scene names at a key.
+    pub(crate) fn read(&mut self, key: &Key, file: &str, sum: String) {
+        let key = key.dotted(&self.document.root);
+        self.diagnostics.add_file(FileSum { key, file: file.to_owned(), sum });
     }
 }
