@@ -11,7 +11,7 @@ use serde_json::{Value as Json, json};
 use std::path::Path;
 
 /// Keys of a scene under which the name of a file stands.
-const FILE_KEYS: [&str; 2] = ["file", "table"];
+const FILE_KEYS: [&str; 3] = ["file", "table", "places"];
 
 /// The fingerprint, 32 hexadecimal digits: the numbers of runs, all that is varied and kept, the columns, the scene and
 /// the files that it refers to, the version of the program.

@@ -31,6 +31,21 @@ fn a_file_that_only_a_later_run_names_belongs_to_the_study() {
 }
 
 #[test]
+fn a_table_of_places_belongs_to_the_study() {
+    let sandbox = sandbox();
+    let folder = sandbox.path();
+    fs::write(folder.join("balls.toml"), format!("{}copies = {{ places = \"places.csv\" }}\n", common::BALL)).unwrap();
+    let text = "scene = \"balls.toml\"\n[parameter.density]\nkey = \"body.ball.density\"\nvalues = [500, 1000]\n";
+    let fingerprint = |places: &str| {
+        fs::write(folder.join("places.csv"), places).unwrap();
+        Study::parse("s.toml", text, folder, &[]).unwrap_or_else(|error| panic!("{error}")).fingerprint().to_owned()
+    };
+    let before = fingerprint("x,y,z\n0,0,0\n1,0,0\n");
+    assert_eq!(before, fingerprint("x,y,z\n0,0,0\n1,0,0\n"));
+    assert_ne!(before, fingerprint("x,y,z\n0,0,0\n2,0,0\n"));
+}
+
+#[test]
 fn replacing_a_table_leaves_shards_and_other_files_alone() {
     let sandbox = sandbox();
     let folder = sandbox.path();
