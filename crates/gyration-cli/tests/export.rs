@@ -246,6 +246,43 @@ fn laws_of_a_recording_with_a_mesh_need_the_same_mesh() {
 }
 
 #[test]
+fn another_table_of_places_is_told_by_whatever_builds_the_scene_again() {
+    let sandbox = Sandbox::new();
+    let grains = r#"
+        time = { end = 0.05, sample = 0.01 }
+        [[body]]
+        name = "grain"
+        shape = { sphere = { radius = 0.01 } }
+        density = 1000
+        copies = { places = "places.csv" }
+    "#;
+    let places = "x,y,z\n0,0,0\n1,0,0\n2,0,0\n";
+    sandbox.write("grains.toml", grains);
+    sandbox.write("places.csv", places);
+    sandbox.done(&["run", "grains.toml", "--quiet"]);
+    let again = [
+        &["export", "grains.gyr", "--format", "vtk"][..],
+        &["export", "grains.gyr", "--format", "xyz"],
+        &["plot", "grains.gyr", "crowd"],
+        &["fields", "grains.gyr", "--width", "1"],
+        &["run", "grains.toml", "--resume"],
+    ];
+    for other in ["x,y,z\n0,0,0\n1,0,0\n3,0,0\n", "x,y,z\n0,0,0\n1,0,0\n2,0,0\n3,0,0\n"] {
+        sandbox.write("places.csv", other);
+        for arguments in again {
+            let said = sandbox.refused(2, arguments).stderr;
+            assert!(said.contains("places.csv") && said.contains("body.grain.copies.places"), "{arguments:?}: {said}");
+            assert!(said.contains("has changed") && said.contains("put the file back"), "{arguments:?}: {said}");
+        }
+        // What needs no scene is written.
+        sandbox.done(&["export", "grains.gyr", "--format", "csv", "-o", "-"]);
+    }
+    assert_eq!(sandbox.names(), ["grains.gyr", "grains.toml", "places.csv"]);
+    sandbox.write("places.csv", places);
+    again.iter().for_each(|arguments| _ = sandbox.done(arguments));
+}
+
+#[test]
 fn films_and_pictures_are_written() {
     let sandbox = Sandbox::with_ball();
     sandbox.done(&["run", "ball.toml", "--quiet"]);

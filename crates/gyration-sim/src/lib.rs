@@ -37,6 +37,7 @@ pub mod rows;
 mod run;
 mod run_state;
 mod scales;
+mod scene_files;
 pub mod sensitivity;
 mod stepping;
 mod sum;

@@ -151,9 +151,9 @@ pub enum RunError {
     OtherScene {
         /// The recording.
         path: PathBuf,
-        /// A line for each key that differs.
+        /// A line for each key or file that differs.
         what: String,
-        /// With which overrides it goes on.
+        /// With which overrides, or files, it goes on.
         fix: String,
     },
     /// The checkpoint is not one of this program.

@@ -9,9 +9,10 @@ mod describe;
 mod differences;
 pub(crate) mod pairs;
 mod ranks;
+mod same_scene;
 pub(crate) mod surfaces;
 
-use self::describe::{describe_solid_support, describe_support, sum_of_places};
+use self::describe::{describe_solid_support, describe_support};
 pub use self::differences::differences;
 pub use self::pairs::pairs_csv;
 use self::ranks::Nowhere;
@@ -23,6 +24,7 @@ use crate::plan::RunPlan;
 use crate::ports::{Communicator, Monitor, Progress, RunError, Sink, WindowEnd};
 use crate::rows::Fields;
 use crate::run::Simulation;
+use crate::scene_files::FILES;
 use crate::summary::RunSummary;
 use crate::survey::remarks::{LeftOut, Remarks, Stretched};
 use gyration::body::{BodyKind, Solid};
@@ -105,25 +107,6 @@ impl<'a> Job<'a> {
     /// The name of its scene.
     pub fn scene_name(&self) -> &str {
         self.scene.name()
-    }
-
-    /// Whether a recording is of this scene, whatever its `solver.max_wall_time` and `solver.threads`.
-    pub fn is_recorded_in(&self, recording: &Attributes) -> bool {
-        comparable(&self.all_attributes()) == comparable(recording)
-    }
-
-    /// The refusal to go on with the recording of another scene: in what it is another one.
-    fn other_scene(&self, path: &Path, recorded: &Attributes) -> RunError {
-        let [there, here] = [recorded, &self.all_attributes()].map(comparable);
-        let resolved = |scene: Option<(Value, Value)>| scene.map_or(Value::Null, |(resolved, _)| resolved);
-        let mut what = differences(&resolved(there), &resolved(here));
-        if what.is_empty() {
-            what.push("the bodies themselves: a file that they are made of has changed, or the program".to_owned());
-        }
-        let overrides = recorded.get("overrides").and_then(Value::as_array).into_iter().flatten();
-        let set = overrides.filter_map(Value::as_str).map(|text| format!(" --set '{text}'")).collect::<String>();
-        let made = if set.is_empty() { "it was made without --set".to_owned() } else { format!("repeat{set}") };
-        RunError::OtherScene { path: path.to_path_buf(), what: what.join("\n  "), fix: made }
     }
 
     /// Runs the scene into a new recording.
@@ -269,7 +252,7 @@ impl<'a> Job<'a> {
     }
 
     /// The attributes of the recording before the run has ended: scene, resolved form, version, commit; bodies,
-    /// supports, gravity.
+    /// supports, gravity; the files that the scene names.
     pub fn all_attributes(&self) -> Attributes {
         let Self { scene, provenance, plan, .. } = self;
         let mut attributes = Attributes::new();
@@ -296,8 +279,8 @@ impl<'a> Job<'a> {
             attributes.insert("solid_supports".into(), described.collect());
         }
         attributes.insert("gravity".into(), json!(self.model.gravity.as_slice()));
-        if let Some(sum) = sum_of_places(scene) {
-            attributes.insert("places".into(), sum);
+        if !scene.file_sums().is_empty() {
+            attributes.insert(FILES.into(), json!(scene.file_sums()));
         }
         let warnings = self.remarks().warnings;
         if !warnings.is_empty() {
@@ -324,18 +307,6 @@ impl BegunRun<'_> {
         sink.writer.flush(&simulation.checkpoint())?;
         job.finish(path, simulation, sink, watch)
     }
-}
-
-/// The resolved scene without what may differ between a run and its resumption, and the bodies that it led to: a mesh
-/// or a table of places may have changed behind its name.
-fn comparable(attributes: &Attributes) -> Option<(Value, Value)> {
-    let mut resolved = attributes.get("resolved")?.clone();
-    if let Some(solver) = resolved.get_mut("solver").and_then(Value::as_object_mut) {
-        solver.remove("max_wall_time");
-        solver.remove("threads");
-    }
-    let others = ["outlines", "places"].map(|key| attributes.get(key).unwrap_or(&Value::Null));
-    Some((resolved, std::iter::once(attributes.get("bodies")?).chain(others).cloned().collect()))
 }
 
 /// Wireframe and silhouette of a solid, relative to the centre of mass.

@@ -95,7 +95,7 @@ fn a_run_of_copies_is_resumed_to_the_same_bytes_and_not_with_another_table() {
     std::fs::write(folder.path().join("places.csv"), table().replace("0.2,0,0.02", "0.25,0,0.02")).unwrap();
     let moved = Scene::parse("dice.toml", scene.text(), folder.path(), &[]).unwrap();
     match Job::of(&moved, &provenance).resume(&parts, &mut Unwatched) {
-        Err(RunError::OtherScene { what, .. }) => assert!(what.contains("a file that they are made of"), "{what}"),
+        Err(RunError::OtherScene { what, .. }) => assert!(what.contains("the file places.csv has changed"), "{what}"),
         other => panic!("{other:?}"),
     }
     by_table(folder.path());

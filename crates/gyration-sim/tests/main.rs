@@ -36,6 +36,7 @@ mod replay;
 mod resumption;
 mod run_loop;
 mod runs;
+mod scene_files;
 mod sensitivities;
 mod settled;
 mod short_range;

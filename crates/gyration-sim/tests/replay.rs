@@ -380,6 +380,17 @@ fn a_mesh_that_moved_or_changed_is_told() {
     assert!(Replay::open(&recording).is_ok());
     tetrahedron(folder.path(), 1.1);
     let changed = Replay::open(&recording).unwrap_err();
+    assert!(matches!(changed, ReplayError::OtherFiles { .. }) && changed.to_string().contains("body.obj"), "{changed}");
+    // A recording that says nothing of files tells it by the bodies.
+    let metadata = recording.path().join("zarr.json");
+    let mut group: serde_json::Value = serde_json::from_slice(&std::fs::read(&metadata).unwrap()).unwrap();
+    let attributes = group["attributes"].as_object_mut().unwrap();
+    for key in ["record_checksum", "files"] {
+        attributes.remove(key).unwrap();
+    }
+    std::fs::write(&metadata, group.to_string()).unwrap();
+    let earlier = Recording::open(recording.path()).unwrap();
+    let changed = Replay::open(&earlier).unwrap_err();
     assert!(matches!(changed, ReplayError::OtherBody { quantity: "the mass", .. }), "{changed}");
     std::fs::remove_file(mesh).unwrap();
     let moved = Replay::open(&recording).unwrap_err();

@@ -138,6 +138,9 @@ fn laws_of(recording: &Recording) -> Result<Vec<Panel>, PlotError> {
 fn no_replay(problem: ReplayError) -> PlotError {
     match problem {
         ReplayError::Record(error) => error.into(),
+        changed @ ReplayError::OtherFiles { .. } => {
+            PlotError::arguments(changed.to_string(), "put the file back as it was when the run was made")
+        }
         problem => PlotError::arguments(
             problem.to_string(),
             "plot the scene file instead, which knows its folder: `gyration plot SCENE laws`",

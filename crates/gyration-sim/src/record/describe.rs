@@ -1,11 +1,7 @@
-//! Supports as a recording describes them, for whoever draws them; and what a table of places has led to.
+//! Supports as a recording describes them, for whoever draws them.
 
-use gyration::kinematics::BodyMotion;
 use gyration::solid_support::SolidSupport;
 use gyration::support::{MotionPart, Support, SupportMotion};
-use gyration_files::check;
-use gyration_scene::file::Copies;
-use gyration_scene::{Built, Scene};
 use serde_json::{Value, json};
 
 /// A plane.
@@ -45,20 +41,4 @@ fn describe_motion(motion: &SupportMotion) -> Value {
         [part] => described(part),
         parts => parts.iter().map(described).collect(),
     }
-}
-
-/// A checksum of how all bodies start, of a scene with a table of places: its resolved form has the path alone.
-pub(super) fn sum_of_places(scene: &Scene) -> Option<Value> {
-    let mut copies = scene.file().body.iter().flat_map(|body| &body.copies);
-    copies.find(|copies| matches!(***copies, Copies::Places(_)))?;
-    let Built { model, state, .. } = scene.built();
-    let mut bytes = Vec::new();
-    for body in 0..model.bodies.len() {
-        let BodyMotion { placement, velocity } = state.motion(model, body);
-        let (centers, tensors) =
-            ([placement.position, velocity.velocity], [placement.gradient, velocity.gradient_rate]);
-        let numbers = centers.iter().flatten().chain(tensors.iter().flatten());
-        bytes.extend(numbers.flat_map(|number| number.to_le_bytes()));
-    }
-    Some(json!(format!("{:08x}", check::sum(&bytes))))
 }

@@ -29,6 +29,14 @@ pub enum ReplayError {
         /// What is wrong.
         errors: Box<SceneErrors>,
     },
+    /// Files that its scene refers to have other numbers than when the run was made.
+    #[error("{path}: what its scene refers to has changed since the run was made: {files}")]
+    OtherFiles {
+        /// The recording.
+        path: PathBuf,
+        /// Each with the key that names it.
+        files: String,
+    },
     /// Its scene now leads to another body than the one recorded.
     #[error(
         "{path}: the scene no longer leads to the body `{body}` that was recorded: {quantity} differs; a file that the \

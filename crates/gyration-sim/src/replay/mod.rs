@@ -52,7 +52,7 @@ impl Replay {
     /// Files that the scene refers to are looked for in the folder of the recording, then in the current one.
     ///
     /// # Errors
-    /// `NoScene`, `Scene` (a mesh or a table may have moved), `OtherBody` (or have changed), `Record`.
+    /// `NoScene`, `Scene` (a mesh or a table may have moved), `OtherFiles` (or have changed), `OtherBody`, `Record`.
     pub fn open(recording: &Recording) -> Result<Self, ReplayError> {
         Ok(Self::of(recording, &rebuild::scene(recording)?))
     }

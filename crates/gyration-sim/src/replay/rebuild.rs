@@ -1,15 +1,16 @@
 //! The scene of a recording from its attributes.
 //!
 //! `resolved` is a scene in JSON with every default in its place, so that later defaults do not matter; `scene`, with
-//! `overrides`, serves where it is missing or not understood. What was built must have the bodies that were recorded: a
-//! mesh may have changed behind its name.
+//! `overrides`, serves where it is missing or not understood. What was built must have the files and bodies that were
+//! recorded: a table or a mesh may have changed behind its name.
 
 use super::error::ReplayError;
 use crate::resistance::complete;
+use crate::scene_files::changed_files;
 use gyration::body::Body;
 use gyration::model::Model;
 use gyration_record::{Attributes, Recording};
-use gyration_scene::Scene;
+use gyration_scene::{FileSum, Scene, SceneErrors};
 use serde_json::Value;
 use std::path::Path;
 
@@ -18,29 +19,40 @@ const ROUNDING: f64 = 1e-9;
 
 /// The scene of a recording, ready to run.
 ///
+/// Files that it names are looked for beside the recording, then in the current folder; those with other numbers than
+/// when the run was made are not taken.
+///
 /// # Errors
-/// `NoScene`, `Scene` (a mesh or a table may have moved), `OtherBody` (or have changed).
+/// `NoScene`, `Scene` (a mesh or a table may have moved), `OtherFiles` (or have changed), `OtherBody`.
 pub fn scene(recording: &Recording) -> Result<Scene, ReplayError> {
-    let path = || recording.path().to_path_buf();
     let beside = recording.path().parent().unwrap_or(Path::new(""));
-    let mut first_failure = None;
+    let mut failures = Vec::new();
     for (name, text, overrides) in texts(recording.attributes()) {
         for base in [beside, Path::new("")] {
-            match Scene::parse(&name, &text, base, &overrides).and_then(complete) {
-                Ok(scene) => {
-                    check(recording, &scene.built().model)?;
-                    return Ok(scene);
-                }
-                Err(errors) => {
-                    first_failure.get_or_insert(errors);
-                }
+            match recorded_scene(recording, Scene::parse(&name, &text, base, &overrides)) {
+                Ok(scene) => return Ok(scene),
+                Err(failure) => failures.push(failure),
             }
         }
     }
-    Err(match first_failure {
-        Some(errors) => ReplayError::Scene { path: path(), errors: Box::new(errors) },
-        None => ReplayError::NoScene { path: path() },
-    })
+    // A file that has changed says more than one that is not there.
+    let telling = failures.into_iter().min_by_key(|failure| matches!(failure, ReplayError::Scene { .. }));
+    Err(telling.unwrap_or_else(|| ReplayError::NoScene { path: recording.path().to_path_buf() }))
+}
+
+/// A scene made ready to run, if it leads to what was recorded.
+fn recorded_scene(recording: &Recording, parsed: Result<Scene, SceneErrors>) -> Result<Scene, ReplayError> {
+    let path = || recording.path().to_path_buf();
+    let failed = |errors| ReplayError::Scene { path: path(), errors: Box::new(errors) };
+    let scene = parsed.map_err(failed)?;
+    let place = |one: &FileSum| format!("{} (`{}`)", scene.base().join(&one.file).display(), one.key);
+    let changed: Vec<String> = changed_files(recording.attributes(), &scene).iter().map(place).collect();
+    if !changed.is_empty() {
+        return Err(ReplayError::OtherFiles { path: path(), files: changed.join(", ") });
+    }
+    let scene = complete(scene).map_err(failed)?;
+    check(recording, &scene.built().model)?;
+    Ok(scene)
 }
 
 /// The texts that may be the scene, with their names and overrides, the best first.

@@ -71,7 +71,7 @@ fn tell_size(first: &Path, samples: usize) {
 pub fn explain(recording: &Recording, error: ReplayError) -> CliError {
     match error {
         ReplayError::Record(error) => error.into(),
-        ReplayError::Scene { .. } | ReplayError::OtherBody { .. } => {
+        ReplayError::Scene { .. } | ReplayError::OtherFiles { .. } | ReplayError::OtherBody { .. } => {
             let fix = "put the file back beside the recording; gltf needs no scene and no mesh";
             CliError::arguments(error.to_string(), fix)
         }
