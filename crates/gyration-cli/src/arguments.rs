@@ -6,6 +6,7 @@ mod completion;
 mod continuum;
 mod export;
 mod fields;
+mod number;
 mod orbit;
 mod plot;
 mod resistance;

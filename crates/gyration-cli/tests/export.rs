@@ -79,6 +79,27 @@ fn what_cannot_be_exported_is_refused() {
     assert_eq!(sandbox.names(), ["ball.gyr", "ball.toml"]);
 }
 
+/// Times that are no numbers passed without a word, with pictures of other times.
+#[test]
+fn times_that_are_no_finite_numbers_are_refused() {
+    let sandbox = recorded();
+    for time in ["nan", "inf", "-inf", "1e999"] {
+        for arguments in [
+            ["export", "ball.gyr", "--format", "png", "--at", time],
+            ["export", "ball.gyr", "--format", "gif", "--from", time],
+            ["export", "ball.gyr", "--format", "mp4", "--to", time],
+        ] {
+            let said = sandbox.refused(2, &arguments).stderr;
+            assert!(said.contains("no finite number") && said.contains(time), "{arguments:?}: {said}");
+        }
+        for end in ["--from", "--to"] {
+            let said = sandbox.refused(2, &["plot", "ball.gyr", "energy", end, time]).stderr;
+            assert!(said.contains("no finite number"), "{end} {time}: {said}");
+        }
+    }
+    assert_eq!(sandbox.names(), ["ball.gyr", "ball.toml"]);
+}
+
 #[test]
 fn failed_export_leaves_the_old_file_and_no_half_of_a_new_one() {
     let sandbox = recorded();

@@ -76,6 +76,7 @@ fn what_cannot_be_averaged_is_refused() {
     for (arguments, told) in [
         (&["--width", "0.1"][..], "record = { pairs = true }"),
         (&["--width", "-1"], "above zero"),
+        (&["--width", "inf"], "no finite number"),
         (&[], "--width"),
         (&["--width", "0.1", "--at", "0,0"], "no point"),
         (&["--width", "0.1", "--grid", "4,4"], "three counts"),

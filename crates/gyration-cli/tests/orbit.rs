@@ -35,7 +35,10 @@ fn what_is_no_orbit_is_refused() {
     sandbox.write("well.toml", WELL);
     for (arguments, told) in [
         (&["--period", "-1"][..], "no time above zero"),
+        (&["--period", "nan"], "no time above zero"),
+        (&["--energy", "nan"], "no finite number"),
         (&["--amplitude", "body.a.x"], "is not as"),
+        (&["--amplitude", "body.a.x=inf"], "is not as"),
         (&["--amplitude", "body.b.x=1"], "the columns are"),
         (&["--shift", "1"], "no `[lattice]`"),
         (&["--shift", "1,2"], "neither a number of cells nor three"),

@@ -87,6 +87,10 @@ fn what_has_no_matrix_is_refused_with_the_fix() {
     assert!(refused(&["grains.toml:bull"]).contains("did you mean `ball`?"));
     assert!(refused(&["grains.toml", "--wall", "ceiling"]).contains("write one of floor"));
     assert!(refused(&["grains.toml:brick", "--frequency", "1"]).contains("is no sphere"));
+    for frequency in ["0", "-1", "inf", "nan"] {
+        let said = refused(&["grains.toml:ball", "--frequency", frequency]);
+        assert!(said.contains("no finite number above zero"), "{said}");
+    }
     assert!(refused(&["grains.toml:ball", "--frequency", "1", "--set", "fluid.density=0"]).contains("`density`"));
     assert!(refused(&["grains.toml:ball", "--triangles", "3"]).contains("80"));
     let touching = refused(&["grains.toml:ball", "--wall", "floor", "--set", "body.ball.position=[0, 0, 0.05]"]);

@@ -1,5 +1,6 @@
 //! The arguments of `gyration export`.
 
+use super::number::finite;
 use clap::{Args, ValueEnum, ValueHint};
 use gyration_plot::TimeSpan;
 use std::num::NonZeroUsize;
@@ -21,13 +22,13 @@ pub struct Export {
     #[arg(long, value_name = "N")]
     pub every: Option<NonZeroUsize>,
     /// The time of the picture [s] (png) [default: the end]
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = finite, allow_hyphen_values = true)]
     pub at: Option<f64>,
     /// Show it from this time on [s] (gif, mp4)
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = finite, allow_hyphen_values = true)]
     pub from: Option<f64>,
     /// Show it up to this time [s] (gif, mp4)
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = finite, allow_hyphen_values = true)]
     pub to: Option<f64>,
     /// Write what acts between two, a row a sample and pair (csv of a scene with record = { pairs = true })
     #[arg(long)]

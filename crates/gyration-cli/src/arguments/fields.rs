@@ -1,5 +1,6 @@
 //! The arguments of `gyration fields`.
 
+use super::number::finite;
 use clap::{Args, ValueHint};
 use gyration::tensor::Vec3;
 use std::num::NonZeroUsize;
@@ -12,7 +13,7 @@ pub struct FieldArguments {
     #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub recording: PathBuf,
     /// Standard deviation of the Gaussian with which bodies are seen from a point [m]
-    #[arg(long, value_name = "W", allow_negative_numbers = true)]
+    #[arg(long, value_name = "W", value_parser = finite, allow_negative_numbers = true)]
     pub width: f64,
     /// Points [m], x,y,z, with spaces between them
     #[arg(long, value_name = "POINTS", value_parser = points, allow_hyphen_values = true, conflicts_with = "grid")]
@@ -40,9 +41,8 @@ pub struct Points(pub Vec<Vec3>);
 
 fn points(text: &str) -> Result<Points, String> {
     let point = |word: &str| {
-        let numbers: Result<Vec<f64>, _> = word.split(',').map(str::parse).collect();
+        let numbers: Result<Vec<f64>, _> = word.split(',').map(finite).collect();
         let numbers = numbers.ok().and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
-        let numbers = numbers.filter(|numbers| numbers.iter().all(|number| number.is_finite()));
         numbers.map(Vec3::from).ok_or_else(|| format!("`{word}` is no point x,y,z in metres"))
     };
     let points: Vec<Vec3> = text.split_whitespace().map(point).collect::<Result<_, _>>()?;

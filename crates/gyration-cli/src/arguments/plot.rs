@@ -1,6 +1,7 @@
 //! The arguments of `gyration plot`.
 
 use super::completion::{completer, scenes};
+use super::number::finite;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use gyration_plot::{PlotQuantity, TimeSpan};
@@ -26,10 +27,10 @@ pub struct Plot {
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     pub columns: Vec<String>,
     /// Show it from this time on [s]
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = finite, allow_hyphen_values = true)]
     pub from: Option<f64>,
     /// Show it up to this time [s]
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = finite, allow_hyphen_values = true)]
     pub to: Option<f64>,
     /// Change a value of the scene before its laws are drawn
     #[arg(long = "set", value_name = "KEY=VALUE")]

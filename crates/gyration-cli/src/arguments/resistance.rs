@@ -1,6 +1,7 @@
 //! The arguments of `gyration resistance`.
 
 use super::completion::{completer, scenes};
+use super::number::positive;
 use clap::builder::TypedValueParser;
 use clap::{Args, ValueHint};
 use gyration_sim::resistance::TRIANGLES_ALLOWED;
@@ -27,7 +28,13 @@ pub struct ResistanceArguments {
     #[arg(long, value_name = "SUPPORT")]
     pub wall: Option<String>,
     /// Small vibrations of this frequency [Hz], of spheres in a fluid with a density
-    #[arg(long, value_name = "HZ", conflicts_with_all = ["elements", "triangles", "wall"])]
+    #[arg(
+        long,
+        value_name = "HZ",
+        value_parser = positive,
+        allow_negative_numbers = true,
+        conflicts_with_all = ["elements", "triangles", "wall"]
+    )]
     pub frequency: Option<f64>,
 }
 
