@@ -63,6 +63,6 @@ fn a_survey_says_what_a_step_of_very_many_pairs_costs() {
         Survey::of(&scene).unwrap().text(&scene).unwrap()
     };
     let told = words(46);
-    assert!(told.contains("warning: 1035 of them have no reach") && told.contains("`reach`"), "{told}");
+    assert!(told.contains("warning: 1035 pairs have no reach") && told.contains("`reach`"), "{told}");
     assert!(!words(45).contains("have no reach"));
 }

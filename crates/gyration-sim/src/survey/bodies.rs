@@ -4,7 +4,7 @@ use super::joints::{JointSurvey, LinkageSurvey};
 use super::kind::KindSurvey;
 use super::laws::LawSurvey;
 use super::mass::MassSurvey;
-use super::meetings::MeetingSurvey;
+use super::meetings::{MeetingSurvey, Meetings};
 use super::modes::{RestState, SystemRestState};
 use super::rest::{Approach, RestGap};
 use super::softness::SoftnessSurvey;
@@ -40,12 +40,12 @@ pub struct Survey {
     /// The springs between bodies, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub springs: Vec<SpringSurvey>,
-    /// The bodies that meet.
+    /// The bodies that meet; of a lattice those of one cell with each other and with images.
     pub meetings: Vec<MeetingSurvey>,
     /// How soft the laws of a crowd are, where softer ones cost less.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub softness: Vec<SoftnessSurvey>,
-    /// How many pairs of bodies meet, and how many of these feel each other however far they are.
+    /// How many meetings there are, and how many pairs of bodies feel each other however far they are.
     #[serde(skip)]
     pub pairs: [usize; 2],
     /// What must be told of the scene besides.
@@ -204,7 +204,8 @@ impl Survey {
         let scene = if deforms || scene.built().waves.is_some() { completed(scene)? } else { Cow::Borrowed(scene) };
         let (model, start) = (&scene.built().model, &scene.built().state);
         let bodies: Vec<_> = (0..model.bodies.len()).map(|index| survey_body(model, start, index)).collect();
-        let meetings = MeetingSurvey::all(model, start);
+        let cells = model.bodies.len() / scene.file().body.len().max(1);
+        let Meetings { told: meetings, counts: pairs } = Meetings::of(model, start, cells);
         Ok(Self {
             softness: SoftnessSurvey::all(&scene, nearest(&bodies, &meetings)),
             bodies,
@@ -213,7 +214,7 @@ impl Survey {
             linkages: LinkageSurvey::all(model, start),
             springs: SpringSurvey::all(model, start),
             meetings,
-            pairs: model.count_pairs(),
+            pairs,
             remarks: Remarks::at_start(model, start, scene.built().plan.rtol),
         })
     }

@@ -1,16 +1,19 @@
 //! What the survey says of bodies that meet: their gap at the start, and whether a law forbids them to touch.
 //!
-//! The verdict is that of the sharper of the two features.
+//! The verdict is that of the sharper of the two features. All cells of a lattice meet alike: what a body of a cell and
+//! an image do to each other is told once, in the cells in which the two start nearest.
 
 use super::laws::LawSurvey;
 use super::reach_change::{ReachChange, solids};
 use crate::format::significant;
+use gyration::Party;
 use gyration::dynamics::Workspace;
+use gyration::lattice::{Cell, HERE};
 use gyration::model::Model;
-use gyration::neighbours::Pair;
+use gyration::neighbours::{Pair, PairKey};
 use gyration::state::State;
 use serde::Serialize;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write as _;
 
 /// Meetings that are told one by one.
@@ -29,7 +32,10 @@ const PLANE: f64 = 5e-6;
 pub struct MeetingSurvey {
     /// Names of the two.
     pub between: [String; 2],
-    /// The width of the slab between them at the start [m]; none where they are out of reach.
+    /// In a lattice the cell of the second as seen from that of the first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cell: Option<Cell>,
+    /// The width of the slab between them at the start [m]; none where they do not feel each other.
     pub initial_gap: Option<f64>,
     /// The distance at which they begin to feel each other [m]; none if they always do.
     pub reach: Option<f64>,
@@ -43,27 +49,72 @@ pub struct MeetingSurvey {
     pub forbids_touching: bool,
 }
 
-impl MeetingSurvey {
-    /// The meetings of a model, in order; of very many the first of each contact and those within reach at the start.
-    pub fn all(model: &Model, start: &State) -> Vec<Self> {
+/// The meetings of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Meetings {
+    /// Those that are told.
+    pub told: Vec<MeetingSurvey>,
+    /// How many there are, and how many pairs feel each other however far they are.
+    pub counts: [usize; 2],
+}
+
+impl Meetings {
+    /// The meetings of a model of so many cells, in order; of very many the first of each contact and those within
+    /// reach at the start.
+    pub fn of(model: &Model, start: &State, cells: usize) -> Self {
         let mut workspace = Workspace::default();
         // A scene whose bodies reach each other at the start has been refused; of very many pairs the last ones may not
         // have been looked at in time.
         let _ = workspace.pair_gaps(model, start.time, start.numbers());
+        if model.images().is_some() {
+            return Self::of_lattice(model, start, cells, &workspace);
+        }
         let near = || workspace.found_gaps().iter().filter(|(_, slab)| slab.gap < f64::INFINITY);
         let known: HashMap<_, f64> = near().map(|(pair, slab)| (pair.key(), slab.gap)).collect();
-        let of = |pair: &Pair| Self::of(model, start, pair, known.get(&pair.key()).copied());
-        if model.count_pairs()[0] <= MOST_LISTED {
-            return model.pairs().map(|pair| of(&pair)).chain(model.pairs_with_supports().iter().map(of)).collect();
+        let of = |pair: &Pair| MeetingSurvey::of(model, start, pair, known.get(&pair.key()).copied());
+        let counts = model.count_pairs();
+        if counts[0] <= MOST_LISTED {
+            let pairs = model.pairs().map(|pair| of(&pair));
+            return Self { told: pairs.chain(model.pairs_with_supports().iter().map(of)).collect(), counts };
         }
         let rules = model.rules().all().iter().enumerate();
         let first = rules.filter_map(|(rule, set)| model.pairs_between(rule, set.pairs().next()?).next());
         let mut pairs: Vec<Pair> = first.chain(near().take(MOST_LISTED).map(|(pair, _)| pair.clone())).collect();
         pairs.sort_by_key(Pair::key);
         pairs.dedup_by_key(|pair| pair.key());
-        pairs.iter().map(of).collect()
+        Self { told: pairs.iter().map(of).collect(), counts }
     }
 
+    /// Those of one cell, by contact and gap.
+    fn of_lattice(model: &Model, start: &State, cells: usize, workspace: &Workspace) -> Self {
+        let deforms = |party: &Party| party.body().is_some_and(|body| model.bodies[body].affine().is_some());
+        let is_endless = |pair: &Pair| pair.form.reach.is_none() || pair.parties.iter().any(deforms);
+        // The images of a body in all cells stand behind one another.
+        let in_cell = |party: Party| party.body().map_or(party, |body| Party::Body(body / cells));
+        let mut endless = 0;
+        let mut nearest: BTreeMap<PairKey, (&Pair, f64)> = BTreeMap::new();
+        for (pair, slab) in workspace.found_gaps().iter() {
+            endless += usize::from(is_endless(pair));
+            let (is_with_support, rule, parties, cell, parts) = pair.key();
+            let key = (is_with_support, rule, parties.map(in_cell), cell, parts);
+            let known = nearest.entry(key).or_insert((pair, slab.gap));
+            if slab.gap < known.1 {
+                *known = (pair, slab.gap);
+            }
+        }
+        let mut pairs: Vec<(&Pair, f64)> = nearest.into_values().collect();
+        let contact = |pair: &Pair| (pair.bodies().is_none(), pair.rule);
+        pairs
+            .sort_by(|(one, gap), (other, wider)| contact(one).cmp(&contact(other)).then_with(|| gap.total_cmp(wider)));
+        let of = |(pair, gap): &(&Pair, f64)| MeetingSurvey {
+            cell: Some(pair.cell),
+            ..MeetingSurvey::of(model, start, pair, Some(*gap).filter(|gap| *gap < f64::INFINITY))
+        };
+        Self { told: pairs.iter().take(MOST_LISTED).map(of).collect(), counts: [pairs.len(), endless] }
+    }
+}
+
+impl MeetingSurvey {
     fn of(model: &Model, start: &State, pair: &Pair, initial_gap: Option<f64>) -> Self {
         let shapes = solids(model, pair).map(|solid| &solid.shape);
         let [first, second] = shapes.map(|shape| shape.sharpest_feature());
@@ -71,6 +122,7 @@ impl MeetingSurvey {
         let laws = LawSurvey::all(pair.form.laws.laws(), sharper);
         Self {
             between: pair.parties.map(|party| model.party_name(party).to_owned()),
+            cell: None,
             initial_gap,
             reach: pair.form.reach,
             reach_change: ReachChange::of(model, start, pair).map(|change| change.part),
@@ -78,16 +130,26 @@ impl MeetingSurvey {
             laws,
         }
     }
+
+    /// The second of the two in words.
+    fn other(&self) -> String {
+        let [one, other] = &self.between;
+        match self.cell {
+            None | Some(HERE) => other.clone(),
+            Some(cell) if one == other => format!("its image in the cell {cell:?}"),
+            Some(cell) => format!("{other} in the cell {cell:?}"),
+        }
+    }
 }
 
-/// The meetings as text, those with the same laws under one verdict; `pairs` of bodies meet, so many of them feel each
-/// other however far they are.
+/// The meetings as text, those with the same laws under one verdict; there are `pairs` of them, and so many pairs feel
+/// each other however far they are.
 pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey], pairs: usize, endless: usize) {
     let short = |value: f64| significant(value, 5);
     let mut told: Option<&MeetingSurvey> = None;
     for meeting in meetings.iter().take(MOST) {
-        let [one, other] = &meeting.between;
-        let unknown = if meeting.reach.is_some() { "out of reach at the start" } else { "gap not known at the start" };
+        let (one, other) = (&meeting.between[0], meeting.other());
+        let unknown = if meeting.reach.is_some() { "not felt at the start" } else { "gap not known at the start" };
         let gap =
             meeting.initial_gap.map_or_else(|| unknown.to_owned(), |gap| format!("gap {} m at the start", short(gap)));
         let reach = meeting.reach.map(|reach| format!(", felt within {} m", short(reach))).unwrap_or_default();
@@ -121,7 +183,7 @@ pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey], pair
         let step = short((EVALUATIONS * endless) as f64 * PLANE);
         let _ = writeln!(
             text,
-            "           warning: {endless} of them have no reach, or deform: an evaluation looks at all, a step makes \
+            "           warning: {endless} pairs have no reach, or deform: an evaluation looks at all, a step makes \
              {EVALUATIONS} or more,\n             which takes some {step} s; give the contact a `reach`, beyond which \
              bodies do not feel each other"
         );
@@ -133,6 +195,37 @@ mod tests {
     use crate::survey::Survey;
     use gyration_scene::Scene;
     use std::path::Path;
+
+    /// A row of balls, their centres 0.1 m apart, that feel each other from a gap of 0.045 m on.
+    fn row(repeat: usize) -> Survey {
+        let text = format!(
+            "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 1, sample = 1 }}\n\
+             lattice = {{ cell = [[0.1, 0, 0]], repeat = [{repeat}, 1, 1] }}\n\
+             body = [{{ name = \"a\", density = 1000, shape = {{ sphere = {{ radius = 0.03 }} }} }}]\n\
+             contact = [{{ between = [\"a\", \"a\"], repulsion = {{ alpha = 20, nu = 2.01, d0 = 0.01 }}, \
+             reach = 0.045 }}]\n"
+        );
+        let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"));
+        let survey = Survey::of(&scene).unwrap();
+        let words = survey.text(&scene).unwrap();
+        let image = if repeat == 1 { "a with its image" } else { "a-0 with a-1" };
+        let told = format!("meeting    {image} in the cell [1, 0, 0]: gap 0.04 m at the start, felt within 0.045 m");
+        assert!(words.contains(&told), "{words}");
+        survey
+    }
+
+    /// Images within reach were said to be out of it, and those of a cell alone were not told at all.
+    #[test]
+    fn meetings_of_a_lattice_are_those_of_one_cell_with_its_images() {
+        for repeat in [1, 4] {
+            let survey = row(repeat);
+            let [near, far @ ..] = &survey.meetings[..] else { panic!("{:?}", survey.meetings) };
+            assert!(near.cell == Some([1, 0, 0]) && (near.initial_gap.unwrap() - 0.04).abs() < 1e-12, "{near:?}");
+            // What may come within reach, where nobody has strayed, follows: the next but one, with no gap.
+            assert!(far.iter().all(|meeting| meeting.initial_gap.is_none() && meeting.cell > near.cell), "{far:?}");
+            assert_eq!(survey.pairs, [survey.meetings.len(), 0]);
+        }
+    }
 
     #[test]
     fn meetings_are_told_with_the_sharper_feature() {
