@@ -1,5 +1,7 @@
 //! How a run ended, in words and in data.
 
+mod flattened;
+
 use crate::format::significant;
 use gyration::load::FrictionFault;
 use gyration::model::Model;
@@ -187,13 +189,26 @@ impl Stop {
         }
     }
 
-    /// A stop because the stepper could not go on.
-    pub fn by_failure(model: &Model, failure: &Failure<Inadmissible>) -> Self {
+    /// A stop because the stepper could not go on from a state, of which these are the numbers. A body that is
+    /// flattened there is the reason, whatever the stepper gave up at: no digit of time is left to it.
+    pub fn by_failure(model: &Model, failure: &Failure<Inadmissible>, state: &[f64]) -> Self {
         let (time, step, cause) = match failure {
             Failure::StepTooSmall { time, step, cause } => (time, *step, cause),
             Failure::NoRates { time, cause } => (time, 0.0, cause),
         };
+        let flat = match cause {
+            Cause::Inadmissible(_) => None,
+            Cause::NotFinite { .. } | Cause::Error { .. } | Cause::Newton => flattened::flattened(model, state),
+        };
+        if let Some((body, value)) = flat {
+            return Self::by_inadmissible(model, *time, &Inadmissible { body, quantity: Quantity::Volume, value });
+        }
         match cause {
+            Cause::Inadmissible(left) if left.quantity == Quantity::Volume => {
+                // The value is that of a trial.
+                let value = flattened::volume(model, left.body, state);
+                Self::by_inadmissible(model, *time, &Inadmissible { value, ..*left })
+            }
             Cause::Inadmissible(left) => Self::by_inadmissible(model, *time, left),
             Cause::NotFinite { index } => Self {
                 time: *time,
@@ -210,18 +225,22 @@ impl Stop {
                     "no step meets the tolerance (the last tried was {step:e} s, limited by the {})",
                     limit_in_words(model, &Limit::Error { component: *component })
                 ),
-                advice: "Loosen solver.rtol or solver.atol, or raise a coefficient or d0 of a contact, which makes \
-                         impacts longer: what happens within the last digit of the time cannot be followed."
-                    .into(),
+                advice: format!(
+                    "Loosen solver.rtol or solver.atol{}: what happens within the last digit of the time cannot be \
+                     followed.",
+                    or_softer_contacts(model)
+                ),
             },
             Cause::Newton => Self {
                 time: *time,
                 reason: Reason::StepTooSmall,
                 body: None,
                 what: format!("the implicit equations cannot be solved with a step of {step:e} s"),
-                advice: "Loosen solver.rtol, use solver.method = \"auto\", or raise a coefficient or d0 of a contact: \
-                         what happens within the last digit of the time cannot be followed."
-                    .into(),
+                advice: format!(
+                    "Loosen solver.rtol, or use solver.method = \"auto\"{}: what happens within the last digit of the \
+                     time cannot be followed.",
+                    or_softer_contacts(model)
+                ),
             },
         }
     }
@@ -300,7 +319,7 @@ impl Stop {
             ),
             Quantity::Stray => (
                 Reason::Strayed,
-                format!("body {body:?} has come {:e} m away from its place in the lattice", left.value),
+                format!("body {body:?} has come {} m away from its place in the lattice", significant(left.value, 6)),
                 "Which bodies meet across cells is listed by where they start: let them stay within half a cell of \
                  there beside one another, or write a larger cell that holds several."
                     .to_string(),
@@ -324,23 +343,8 @@ impl Stop {
             ),
             Quantity::Volume => (
                 Reason::Inverted,
-                format!("body {body:?} is flattened: det P has come down to {:e}", left.value),
-                match (model.bodies[left.body].contraction(), model.bodies[left.body].has_inertia()) {
-                    (Some(_), _) => {
-                        "Its drive contracts it without end, or faster than it yields: raise the \
-                         `contraction_viscosity`, weaken the drive, or let it answer to the stretch by a `feedback`."
-                    }
-                    (None, true) => {
-                        "Only a material whose energy grows without bound under compression forbids that: one with \
-                         a `bulk` or a logarithm of the volume, or an incompressible one; or start it with a smaller \
-                         `gradient_rate`."
-                    }
-                    (None, false) => {
-                        "The flow presses it flat: a body without elasticity closes like a void. Give it a material \
-                         with a `bulk` or a logarithm of the volume, or an incompressible one, or a weaker flow."
-                    }
-                }
-                .to_string(),
+                format!("body {body:?} is flattened: det P has come down to {:.3e}", left.value),
+                flattened::advice(model, left.body),
             ),
             Quantity::Resistance => (
                 Reason::Unresisted,
@@ -432,6 +436,14 @@ fn hardly_forbidden(model: &Model, parties: [Party; 2], rule: usize) -> Option<S
         "A repulsion of exponent {exponent} {forbids} that they touch ({feature}): choose a larger exponent, more than \
          {critical}; or raise a coefficient or d0, or reduce the speed."
     ))
+}
+
+/// Softer contacts, as another way out; nothing where no body has one.
+fn or_softer_contacts(model: &Model) -> &'static str {
+    match (0..model.bodies.len()).any(|body| model.has_contact(body)) {
+        true => ", or raise a coefficient or d0 of a contact, which makes impacts longer",
+        false => "",
+    }
 }
 
 /// What two parties are called together.

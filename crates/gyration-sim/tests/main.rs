@@ -12,6 +12,7 @@ mod dissipation;
 mod equations;
 mod exchanges;
 mod fields;
+mod flattened;
 mod impulses;
 mod interruptions;
 mod islands;

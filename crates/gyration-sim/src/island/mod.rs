@@ -334,7 +334,8 @@ impl Island {
             // A shorter step that has gone well is another one than the run would have made.
             return Err(Stop::by_interruption(time));
         }
-        let report = made.map_err(|failure| Stop::by_failure(self.system.model(), &failure))?;
+        let outside = |failure| Stop::by_failure(self.system.model(), &failure, self.integrator.state());
+        let report = made.map_err(outside)?;
         self.effort.count(self.members.len());
         self.read_step_end();
         self.state.largest_projection = self.state.largest_projection.max(report.projection);
@@ -373,7 +374,8 @@ impl Island {
     /// [`Stop`] if the system has no rates.
     pub fn restart(&mut self) -> Result<(), Stop> {
         let restarted = self.integrator.restart(&mut self.system);
-        restarted.map_err(|failure| Stop::by_failure(self.system.model(), &failure))?;
+        let outside = |failure| Stop::by_failure(self.system.model(), &failure, self.integrator.state());
+        restarted.map_err(outside)?;
         self.last_step = None;
         // Before the first step the rates at the start stand in the system.
         let (rates, _) = self.integrator.rates();
