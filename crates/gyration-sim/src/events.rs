@@ -10,13 +10,15 @@
 //! the dense output. Speeds below 1e-6 of the body's speed scale are taken for rest: a body that has settled gives no
 //! events, and one that passes through rest keeps the sign that it had before. Two events of one kind within a quarter
 //! of a step cancel and go unseen; so does a touch within one step, which the error control resolves into several steps
-//! unless its force does not matter. A body without inertia is carried, not thrown: it has no events.
+//! unless its force does not matter. A body without inertia is carried, not thrown: it has no events. A pinned body has
+//! no apex: its centre goes round the pin.
 
 use gyration::dynamics::nearest;
 use gyration::instant::PairGaps;
 use gyration::model::Model;
 use gyration::state::BodyMotion;
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 
 /// The kinds of event, by code.
 pub const EVENT_KINDS: [&str; 3] = ["apex", "closest_approach", "lift_off"];
@@ -38,11 +40,29 @@ pub struct Event {
     pub body: usize,
 }
 
+impl Event {
+    /// The order in which events are handed on: of time, body and kind.
+    pub(crate) fn in_order(&self, other: &Self) -> Ordering {
+        self.time.total_cmp(&other.time).then((self.body, self.kind).cmp(&(other.body, other.kind)))
+    }
+}
+
+/// An event that is not handed on yet, with what a run keeps of it besides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FoundEvent {
+    /// What happened.
+    pub event: Event,
+    /// Of a closest approach the gap to what the body has a contact with [m]; infinite of another event.
+    pub gap: f64,
+}
+
 /// The three functions of one body at one instant, each scaled so that |f| < 1 is rest or nothing.
 pub type Signals = [f64; 3];
 
 /// The place of the apex among the kinds.
 pub const APEX: usize = 0;
+/// The place of the closest approach: the one that has a gap.
+pub const CLOSEST_APPROACH: usize = 1;
 /// The place of the lift-off: the one that needs a force.
 pub const LIFT_OFF: usize = 2;
 
@@ -58,7 +78,7 @@ pub fn happened(kind: usize, before: f64, after: f64) -> bool {
 
 /// Whether the signal of this kind rises through zero at its event.
 pub fn rises(kind: usize) -> bool {
-    EVENT_KINDS[kind] == "closest_approach"
+    kind == CLOSEST_APPROACH
 }
 
 /// The upward speed of the centre; NaN without gravity and for a pinned body.

@@ -27,7 +27,7 @@ pub struct RunState {
     pub largest_residual: f64,
     /// What the energies leave open at the start.
     pub(crate) looseness: Looseness,
-    /// Smallest gap over the samples [m].
+    /// Smallest gap over the samples and closest approaches [m].
     pub smallest_gap: f64,
     /// How many events of each kind.
     pub events: [u64; 3],

@@ -5,7 +5,7 @@
 //! samples have a part in this.
 
 use crate::adapter::ModelSystem;
-use crate::events::{self, APEX, Event, LIFT_OFF, Signals};
+use crate::events::{self, APEX, CLOSEST_APPROACH, Event, FoundEvent, LIFT_OFF, Signals};
 use crate::island::Island;
 use crate::island::step_end::StepEnd;
 use crate::outcome::Stop;
@@ -85,7 +85,7 @@ impl Island {
                 self.compare(body, time);
             }
         }
-        self.events[before..].sort_by(|a, b| a.time.total_cmp(&b.time));
+        self.events[before..].sort_by(|a, b| a.event.time.total_cmp(&b.event.time));
     }
 
     /// The signals of all bodies at the end of the step.
@@ -116,9 +116,19 @@ impl Island {
             let since = std::mem::replace(&mut self.since[body][kind], time);
             if events::happened(kind, before, after) {
                 let event = Event { time: self.locate(body, kind, since, time), kind, body: self.members()[body] };
-                self.events.push(event);
+                let gap = if kind == CLOSEST_APPROACH { self.gap_within(body, event.time) } else { f64::INFINITY };
+                self.events.push(FoundEvent { event, gap });
             }
         }
+    }
+
+    /// The gap of a body to a support that it has a contact with, or to what it meets within reach, at a time within
+    /// the last step [m]; infinite without one, and where it is not known.
+    fn gap_within(&mut self, body: usize, time: f64) -> f64 {
+        // Signals are known by now: nobody needs the sample of another time.
+        self.sample(time);
+        let (model, workspace) = self.system.observed();
+        workspace.gap_of((model, body), time, self.sampled.numbers()).unwrap_or(f64::INFINITY)
     }
 
     /// The time of an event between two times of the last step [s].

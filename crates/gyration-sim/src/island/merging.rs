@@ -93,7 +93,7 @@ impl Island {
             Ok(())
         });
         self.events = known;
-        self.events.retain(|event| event.time <= time);
+        self.events.retain(|found| found.event.time <= time);
         come
     }
 
@@ -165,6 +165,6 @@ impl Island {
     /// Takes the events of other islands that are not handed on yet.
     pub fn take_events<'a>(&mut self, before: impl IntoIterator<Item = &'a Island>) {
         self.events = before.into_iter().flat_map(|island| island.events.iter().copied()).collect();
-        self.events.sort_by(|a, b| a.time.total_cmp(&b.time).then((a.body, a.kind).cmp(&(b.body, b.kind))));
+        self.events.sort_by(|a, b| a.event.in_order(&b.event));
     }
 }

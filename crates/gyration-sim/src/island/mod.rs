@@ -26,7 +26,7 @@ pub(crate) mod step_end;
 mod within;
 
 use crate::adapter::ModelSystem;
-use crate::events::{Event, Signals};
+use crate::events::{FoundEvent, Signals};
 use crate::outcome::Stop;
 use crate::peaks::Peaks;
 use crate::plan::RunPlan;
@@ -79,7 +79,7 @@ pub(crate) struct Island {
     /// |f| of the contacts of each body after the last step [N].
     pub forces: Vec<f64>,
     /// Events that are not handed on yet, in order of time.
-    pub events: Vec<Event>,
+    pub events: Vec<FoundEvent>,
     /// Scratch: the signals of each body at a time within the step.
     pub signals: Vec<Signals>,
     /// Scratch: since when each signal of each body is known within the step [s].
@@ -227,7 +227,7 @@ impl Island {
             if self.time() < time && !self.state.is_parting && self.step(plan).is_ok() && self.time() < time {
                 return Err(MemoryError::Number { what: "a time" });
             }
-            self.events.retain(|event| event.time > time);
+            self.events.retain(|found| found.event.time > time);
             Ok(())
         })
     }
@@ -244,7 +244,7 @@ impl Island {
         if let Some(restart_point) = &mut self.restart_point {
             restart_point.drop_at(&self.state, &self.integrator);
         }
-        self.events.retain(|event| event.time <= memory.stepper.time());
+        self.events.retain(|found| found.event.time <= memory.stepper.time());
         self.paths.iter_mut().for_each(Paths::clear);
         self.stop = None;
         self.read_step_end();

@@ -3,7 +3,7 @@
 //! These are its memory, as in a checkpoint, the last step to interpolate in, the memory before it, and what was found
 //! on the way and waits to be handed on: events, path bounds, a stop. Everything else follows from these.
 
-use crate::events::{EVENT_KINDS, Event};
+use crate::events::{EVENT_KINDS, Event, FoundEvent};
 use crate::island::Island;
 use crate::island::effort::Effort;
 use crate::peaks::Peaks;
@@ -22,7 +22,9 @@ impl Island {
         let unseen = self.paths.as_ref().map_or(0, |paths| paths.unseen() as u64);
         list(&mut [start.to_bits(), end.to_bits(), made, kept, unseen].into_iter());
         list(&mut self.peaks_before.bits().collect::<Vec<_>>().into_iter());
-        let events = self.events.iter().map(|event| [event.time.to_bits(), event.kind as u64, event.body as u64]);
+        let events = self.events.iter().map(|FoundEvent { event: Event { time, kind, body }, gap }| {
+            [time.to_bits(), *kind as u64, *body as u64, gap.to_bits()]
+        });
         list(&mut events.collect::<Vec<_>>().as_flattened().iter().copied());
         let bounds = self.paths.as_ref().map(|paths| paths.numbers()).unwrap_or_default();
         list(&mut bounds.into_iter().map(f64::to_bits));
@@ -67,11 +69,12 @@ impl Island {
     }
 }
 
-fn events(numbers: &[u64]) -> Option<Vec<Event>> {
-    let (events, []) = numbers.as_chunks::<3>() else { return None };
-    let event = |[time, kind, body]: &[u64; 3]| {
+fn events(numbers: &[u64]) -> Option<Vec<FoundEvent>> {
+    let (events, []) = numbers.as_chunks::<4>() else { return None };
+    let event = |[time, kind, body, gap]: &[u64; 4]| {
         let (kind, body) = (usize::try_from(*kind).ok()?, usize::try_from(*body).ok()?);
-        (kind < EVENT_KINDS.len()).then_some(Event { time: f64::from_bits(*time), kind, body })
+        let event = Event { time: f64::from_bits(*time), kind, body };
+        (kind < EVENT_KINDS.len()).then_some(FoundEvent { event, gap: f64::from_bits(*gap) })
     };
     events.iter().map(event).collect()
 }

@@ -24,7 +24,7 @@ mod samples;
 mod window;
 
 use crate::adapter::first_rates;
-use crate::events::Event;
+use crate::events::FoundEvent;
 use crate::in_play::InPlay;
 use crate::island::pool::ScratchPool;
 use crate::island::{Island, Setting};
@@ -71,7 +71,7 @@ pub struct Simulation {
     /// Up to where a window goes at most [s], lest its rows take long.
     portion: f64,
     /// Scratch: the events of a window.
-    found: Vec<Event>,
+    found: Vec<FoundEvent>,
     /// Whether an interruption came within a step.
     is_broken: bool,
     /// The processes that share it out, if there are several.

@@ -2,6 +2,7 @@
 
 use super::partition::Changing;
 use super::{Simulation, is_asked};
+use crate::events::FoundEvent;
 use crate::island::{Effort, Island, Setting};
 use crate::outcome::{Reason, Stop};
 use crate::ports::{Monitor, Progress, RunError, Sink};
@@ -298,14 +299,15 @@ impl Simulation {
         found.clear();
         let time = self.state.time;
         for island in self.partition.islands.iter_mut() {
-            let known = island.events.partition_point(|event| event.time <= time);
+            let known = island.events.partition_point(|found| found.event.time <= time);
             found.extend(island.events.drain(..known));
         }
-        debug_assert!(found.iter().all(|event| event.time >= before));
+        debug_assert!(found.iter().all(|found| found.event.time >= before));
         // In place: nothing is allocated.
-        found.sort_unstable_by(|a, b| a.time.total_cmp(&b.time).then((a.body, a.kind).cmp(&(b.body, b.kind))));
-        for event in &found {
+        found.sort_unstable_by(|a, b| a.event.in_order(&b.event));
+        for FoundEvent { event, gap } in &found {
             self.state.events[event.kind] += 1;
+            self.state.smallest_gap = self.state.smallest_gap.min(*gap);
             sink.event(event)?;
             if sink.wants_event_rows() {
                 match self.row_at(event.time) {

@@ -44,7 +44,8 @@ pub struct RunSummary {
     /// What they do together at the end; none of few, and where that could not be looked at.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crowd: Option<CrowdState>,
-    /// Smallest gap over the samples [m]; none without supports.
+    /// Smallest gap to anything that a body has a contact with, over the samples and the closest approaches [m]; none
+    /// without contacts.
     pub smallest_gap: Option<f64>,
     /// How many events of each kind.
     pub events: Value,

@@ -158,6 +158,18 @@ impl Workspace {
         instants.slabs_of((model, body), time, state, |mut instant| inertialess::solve(&mut instant, scratch))
     }
 
+    /// The gap of a body to what it has a contact with [m]: a support, to all the digits of the state, or what it meets
+    /// within reach; infinite without. Of the others only their places are looked at.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0, or if no plane separates it from another.
+    pub fn gap_of(&mut self, (model, body): (&Model, usize), time: f64, state: Numbers) -> Result<f64, Inadmissible> {
+        let slabs = self.pair_gaps_of((model, body), time, state)?;
+        let near = slabs.of(body).map(|slab| slab.gap).fold(f64::INFINITY, f64::min);
+        let motions = self.instants.motions(model, time, state)?;
+        Ok(near.min(contacts::support_gap_at(&motions.at(model, body))))
+    }
+
     /// The slabs that were found last, infinite of pairs that nobody has looked at since something failed; none once
     /// they are remembered.
     pub fn found_gaps(&self) -> &PairGaps {
