@@ -41,7 +41,7 @@ pub fn fix<'a>(word: &str, known: impl IntoIterator<Item = &'a str> + Clone, wha
     }
     // Enough for the keys of the largest table of the format.
     const LISTED: usize = 24;
-    let mut names: Vec<&str> = known.into_iter().take(LISTED + 1).collect();
+    let mut names: Vec<&str> = known.into_iter().filter(|name| !name.is_empty()).take(LISTED + 1).collect();
     if names.is_empty() {
         return format!("there are no {what} here");
     }

@@ -520,6 +520,46 @@ fn all_syntax_errors_come_at_once() {
     assert_eq!((found.as_slice()[0].line, found.as_slice()[0].column), (1, 9), "{found}");
 }
 
+/// The fix was to read the grammar of TOML.
+#[test]
+fn numbers_without_a_digit_at_their_point_are_told_as_meant() {
+    for (written, meant) in [
+        ("§.06", "write 0.06"),
+        ("§+.5", "write 0.5"),
+        ("§-.5e-3", "write -0.5e-3"),
+        ("[1, §.25]", "write 0.25"),
+        ("6.§", "write 6.0"),
+        ("-6.§", "write -6.0"),
+        ("1.§e5", "write 1.0e5"),
+        ("§06", "write 6"),
+        ("§00.5", "write 0.5"),
+        ("6.§e", "see https://toml.io for the syntax"),
+    ] {
+        let place = written.find('§').unwrap();
+        let text = format!("title = \"µ\"\nradius = {}\nend = 1\n", written.replace('§', ""));
+        let found = errors("scene.toml", &text, &[]);
+        let error = &found.as_slice()[0];
+        assert_eq!((error.line, error.column, error.help.as_str()), (2, 10 + place, meant), "{written}: {found}");
+        assert!(error.message.starts_with("not valid TOML"), "{found}");
+    }
+}
+
+#[test]
+fn large_whole_numbers_are_told_without_rounding() {
+    let seed = "copies = { random = { count = 5, box = [[0, 0, 0], [1, 1, 1]], seed = §18446744073709551615 } }";
+    let message = "must be at most 9007199254740991, found";
+    let help = "write a whole number from 0 to 9007199254740991";
+    assert_error(&format!("{TIME}{BALL}{seed}\n"), "body.ball.copies.random.seed", message, help);
+}
+
+/// A group without a name stood in the list of names, as nothing before a comma.
+#[test]
+fn nobody_is_offered_a_name_without_letters() {
+    let contact = "[[contact]]\nbetween = [\"zzz\", \"ball\"]\nrepulsion = { alpha = 1, nu = 6 }\n";
+    let found = errors("scene.toml", &format!("{TIME}{BALL}group = \"\"\n{contact}"), &[]).to_string();
+    assert!(found.contains("no body, group or support \"zzz\"") && !found.contains("one of: ,"), "{found}");
+}
+
 #[test]
 fn an_error_shows_its_line_and_its_fix() {
     let found = errors("scene.toml", &format!("{TIME}{BALL}velocity = [0, \"2 cm\", 0]\n"), &[]);

@@ -185,12 +185,14 @@ impl Walker<'_> {
     fn limits(&mut self, number: f64, node: &Node, key: &Key, limits: NumberLimits, unit: &str) {
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
         let NumberLimits { least, most, above, whole } = limits;
+        // Whole numbers up to 2^53 are told with all their digits.
+        let told = |value: f64| if whole && value.abs() < 1e17 { value.to_string() } else { shown(value) };
         let broken = match (least, most, above) {
             _ if number.is_nan() => Some("a number".to_owned()),
             _ if number.is_infinite() => Some("finite".to_owned()),
-            (_, _, Some(above)) if number <= above => Some(format!("greater than {}{unit}", shown(above))),
-            (Some(least), _, _) if number < least => Some(format!("at least {}{unit}", shown(least))),
-            (_, Some(most), _) if number > most => Some(format!("at most {}{unit}", shown(most))),
+            (_, _, Some(above)) if number <= above => Some(format!("greater than {}{unit}", told(above))),
+            (Some(least), _, _) if number < least => Some(format!("at least {}{unit}", told(least))),
+            (_, Some(most), _) if number > most => Some(format!("at most {}{unit}", told(most))),
             _ if whole && number.fract() != 0.0 => Some("whole".to_owned()),
             _ => None,
         };
@@ -198,7 +200,7 @@ impl Walker<'_> {
             // Beyond a limit by rounding, a number is told with all its digits.
             let mut limits = [least, most, above].into_iter().flatten();
             let is_at_limit = limits.any(|limit| limit != number && shown(limit) == shown(number));
-            let found = if is_at_limit { format!("{number:?}") } else { shown(number) };
+            let found = if is_at_limit { format!("{number:?}") } else { told(number) };
             let message = format!("must be {condition}, found {found}{unit}");
             let range = match (least, most) {
                 (Some(least), Some(most)) if whole => format!("write a whole number from {least} to {most}"),
