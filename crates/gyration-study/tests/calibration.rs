@@ -377,6 +377,12 @@ fn bad_files_are_refused_with_place_and_fix() {
         ("scene = \"ball.toml\"", "", "cannot tell"),
         ("scene = \"ball.toml\"", "[fit.b]\nkey = \"contact.0.repulsion.beta\"", "no number at"),
         ("scene = \"ball.toml\"", "[fit.b]\nkey = \"contact.0.repulsion.nu\"\nfrom = 7\nto = 9", "between the bounds"),
+        (
+            "scene = \"ball.toml\"",
+            "[fit.b]\nkey = \"contact.0.repulsion.nu\"\nstart = 5\nfrom = 10\nto = 1",
+            "data.toml:8:6: fit.b.to: the bound to = 1.0 is not greater than from = 10.0",
+        ),
+        ("scene = \"ball.toml\"", "[fit.b]\nkey = \"contact.0.repulsion.nu\"\nfrom = 2\nto = 2", "a greater `to`"),
     ];
     for (scene, sections, expected) in cases {
         let text = format!("{scene}\n[fit.a]\nkey = \"contact.0.repulsion.alpha\"\n{sections}\n");
@@ -385,6 +391,11 @@ fn bad_files_are_refused_with_place_and_fix() {
         assert!(message.contains("data.toml:") && message.contains("fix:"), "{message}");
     }
     assert!(Calibration::load(Path::new("/nowhere/data.toml")).is_err());
+    // The start was told without its place, as that of a measurement.
+    let text = "scene = \"ball.toml\"\n[fit.a]\nkey = \"contact.0.repulsion.alpha\"\nstart = -1\n[[gap]]\ngap = 1e-3\n\
+                deviation = 1e-5\n";
+    let message = Calibration::parse("data.toml", text, folder.path()).unwrap_err().to_string();
+    assert!(message.contains("data.toml:4:9: fit.a.start: ") && message.contains("must be at least 0 Pa"), "{message}");
 }
 
 #[test]

@@ -33,7 +33,8 @@ fn impossible_distributions_are_refused() {
         refused(&parameter(&format!("{height}{variation}")), 4, &format!("parameter.p.{key}"), words);
     };
     refused_as("uniform = { from = 2, to = 1 }", "uniform.to", ["not greater than from", "swap"]);
-    refused_as("uniform = { from = 1, to = \"100 cm\" }", "uniform.to", ["not greater than from", "swap"]);
+    refused_as("uniform = { from = 1, to = \"100 cm\" }", "uniform.to", ["not greater than from", "a greater end"]);
+    refused_as("log_uniform = { from = 3, to = 2 }", "log_uniform.to", ["not greater than from", "swap"]);
     refused_as("log_uniform = { from = -1, to = 1 }", "log_uniform.from", ["no logarithm", "greater than 0"]);
     refused_as("normal = { mean = 0, deviation = 0 }", "normal.deviation", ["no standard deviation", "greater than 0"]);
     refused_as("normal = { mean = 0, deviation = inf }", "normal.deviation", ["finite", "finite"]);

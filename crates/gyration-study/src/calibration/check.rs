@@ -1,8 +1,9 @@
-//! What no file of measurements may say: what cannot be measured, and numbers that are found and set at once.
+//! What no file of measurements may say: what cannot be measured, numbers that are found and set at once, and starts
+//! that the scene refuses.
 
 use super::{ExperimentKind, FreeNumber};
-use gyration_scene::Template;
 use gyration_scene::input::InputFile;
+use gyration_scene::{Override, Template};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
@@ -47,6 +48,22 @@ pub(super) fn keys_once(input: &mut InputFile, numbers: &[FreeNumber], template:
                     input.note(&place, message, "set it for none, or do not fit it");
                 }
             }
+        }
+    }
+}
+
+/// Notes starts of a search that are no numbers of the scene, where they are written.
+pub(super) fn starts(input: &mut InputFile, numbers: &[FreeNumber], template: &Template, settings: &[Override]) {
+    let keys: Vec<(&FreeNumber, &String)> =
+        numbers.iter().flat_map(|number| number.keys.iter().map(move |key| (number, key))).collect();
+    let begun = keys.iter().map(|(number, key)| Override::new(*key, number.start));
+    let overrides: Vec<Override> = settings.iter().cloned().chain(begun).collect();
+    let Err(errors) = template.scene(&overrides) else { return };
+    for error in errors.as_slice() {
+        let at = error.overriding.and_then(|index| keys.get(index.checked_sub(settings.len())?));
+        if let Some((number, key)) = at {
+            let message = format!("the search cannot begin there, `{key}` of the scene {}", error.message);
+            input.note(&["fit", number.name.as_str(), "start"], message, error.help.clone());
         }
     }
 }

@@ -1,6 +1,6 @@
 //! From a file of measurements to a calibration: everything that is wrong at once, each with its place and its fix.
 
-use super::check::{is_possible, keys_once};
+use super::check::{is_possible, keys_once, starts};
 use super::columns::{column, csv, settings};
 use super::dispersion;
 use super::file;
@@ -69,6 +69,9 @@ impl Calibration {
         if input.is_sound() && rows < numbers.len() {
             let message = format!("{rows} measurements cannot tell {} numbers", numbers.len());
             input.note(&["fit"], message, "measure more, or fit fewer numbers");
+        }
+        if let (true, Some(template)) = (input.is_sound(), &template) {
+            starts(&mut input, &numbers, template, &settings);
         }
         let title = input.take(&["title"]);
         input.finish()?;
@@ -167,6 +170,14 @@ fn number(input: &mut InputFile, name: &str, resolved: Option<&Json>) -> Option<
     };
     let start = given("start", written.start).or(own)?;
     let bounds = [given("from", written.from), given("to", written.to)];
+    if let [Some(low), Some(high)] = bounds
+        && low >= high
+    {
+        let help = if low > high { "swap the two bounds" } else { "write a greater `to`" };
+        let message = format!("the bound to = {high:?} is not greater than from = {low:?}");
+        input.note(&[place[0], place[1], "to"], message, help);
+        return None;
+    }
     let kind = written.scale.unwrap_or(if start > 0.0 { file::Scale::Log } else { file::Scale::Linear });
     let size = match bounds {
         [Some(low), Some(high)] => high - low,

@@ -127,7 +127,8 @@ impl ParameterReader<'_> {
     fn range(&mut self, way: &str, from: &Measured, to: &Measured, is_logarithmic: bool) -> Option<[f64; 2]> {
         let [low, high] = self.pair(way, ["from", "to"], [from, to])?;
         if low >= high {
-            self.note(&[way, "to"], format!("{high:?} is not greater than from = {low:?}"), "swap the two ends");
+            let help = if low > high { "swap the two ends" } else { "write a greater end" };
+            self.note(&[way, "to"], format!("{high:?} is not greater than from = {low:?}"), help);
             return None;
         }
         if is_logarithmic && low <= 0.0 {
