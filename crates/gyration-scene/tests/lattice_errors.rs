@@ -74,7 +74,7 @@ fn errors_of_a_lattice_stand_at_their_place() {
 #[test]
 fn forces_of_a_lattice_look_alike_from_every_cell_and_its_errors_come_alone() {
     let body = |force: &str| format!("{TIME}{WEIGHTLESS}{CHAIN}{POINT}body_force = §[\"{force}\", \"0\", \"0\"]\n");
-    assert_error(&body("-0.1*x"), "body.a.body_force", "changes along cell vector 1", "let it repeat");
+    assert_error(&body("-0.1*x"), "body.a.body_force", "changes along cell vector 1", "those of the body's own cell");
     for alike in ["sin(2*pi*x)*cos(t)", "-0.1*y"] {
         let text = body(alike).replace('§', "");
         assert!(Scene::parse("scene.toml", &text, Path::new(""), &[]).is_ok(), "{alike}");

@@ -312,7 +312,8 @@ impl Cells {
                 let at_points = at_points.map(|(k, force)| (&force.field, own.key("force").index(k).key("value")));
                 for (_, key) in of_volume.chain(at_points).filter(|(field, _)| !field.is_alike(&points, vector)) {
                     let message = format!("the force changes along cell vector {number}: cells do not see it alike");
-                    let help = "let it repeat with the cell; `potential` is of the place in the cell";
+                    let help = "let it repeat with the cell, or write a `potential`: its x, y, z are those of the \
+                                body's own cell";
                     reporter.note(&key, message, help);
                 }
             }
