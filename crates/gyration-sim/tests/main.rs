@@ -35,6 +35,7 @@ mod random_scenes;
 mod ranks;
 mod remarks;
 mod replay;
+mod rests;
 mod resumption;
 mod run_loop;
 mod runs;

@@ -6,10 +6,12 @@
 //! Newton's step. Where K is smaller than r over the longest step allowed, the largest such quotient stands in its
 //! place: a body far above its support comes down in growing steps, and directions without force that are free
 //! (sliding, turning about the vertical) or unstable are left alone. A step is halved until gaps and det P keep a part
-//! of their values, and the work over it by the trapezoidal rule is not negative.
+//! of their values, no body has passed through another (`barriers`), and the work over it by the trapezoidal rule is
+//! not negative. Steps that come to nothing although forces are left have met an edge of the model, not a rest.
 
+use super::barriers::{Barriers, LEAST_KEPT};
 use super::canonical::{self, Basis};
-use super::frozen::FrozenSystem;
+use super::frozen::{BodyGaps, FrozenSystem};
 use super::shape::ModeShape;
 use super::system::SystemCoordinates;
 use super::{NoRest, Rest};
@@ -26,8 +28,6 @@ const MOST_EVALUATIONS: usize = 2000;
 const HALVINGS: usize = 60;
 /// The most that a step may strain or turn a body.
 const LARGEST_STRAIN: f64 = 0.3;
-/// The part of a gap, and of det P, that a step must leave.
-const LEAST_KEPT: f64 = 0.1;
 /// Steps smaller than this part of gap and size are the last; then they are repeated for as long as they get smaller.
 const SMALL: f64 = 1e-8;
 /// Forces below this part of the largest stiffness over the gap are none: what is left in free directions.
@@ -48,21 +48,30 @@ pub(super) fn find(frozen: &mut FrozenSystem) -> Result<Vec<f64>, NoRest> {
         if frozen.evaluations() > MOST_EVALUATIONS || Interruption::due().is_some() {
             return Err(not_found(frozen, &search.numbers, steps)?);
         }
-        let ended = search.step(frozen)?;
+        let progress = search.step(frozen)?;
         gone(frozen, &search.numbers)?;
-        if ended {
-            return Ok(search.numbers);
+        match progress {
+            Progress::GoesOn => {}
+            Progress::Rests => return Ok(search.numbers),
+            Progress::IsBlocked => {
+                let acceleration = left(frozen, &search.numbers)?;
+                return Err(NoRest::Blocked { steps, acceleration });
+            }
         }
     }
     Err(not_found(frozen, &search.numbers, MOST)?)
 }
 
-/// A search that has not ended, and the acceleration where it stands.
+/// A search that has not ended.
 fn not_found(frozen: &mut FrozenSystem, numbers: &[f64], steps: usize) -> Result<NoRest, NoRest> {
+    Ok(NoRest::NotFound { steps, acceleration: left(frozen, numbers)? })
+}
+
+/// The largest acceleration where the search stands.
+fn left(frozen: &mut FrozenSystem, numbers: &[f64]) -> Result<f64, NoRest> {
     let rates = frozen.rates(numbers)?;
     let left = (0..frozen.count()).flat_map(|body| &rates[frozen.slots(body).velocities()]);
-    let acceleration = left.fold(0.0, |most: f64, a| most.max(a.abs()));
-    Ok(NoRest::NotFound { steps, acceleration })
+    Ok(left.fold(0.0, |most: f64, a| most.max(a.abs())))
 }
 
 /// Refuses what gravity moves on for ever: the laws push along the normals of supports alone.
@@ -107,7 +116,7 @@ fn gone(frozen: &FrozenSystem, numbers: &[f64]) -> Result<(), NoRest> {
 /// What a rest state is of each body.
 pub(super) fn rest_at(frozen: &mut FrozenSystem, numbers: &[f64]) -> Vec<Rest> {
     let gaps = frozen.gaps(numbers);
-    let rest = |(body, gaps): (usize, Vec<f64>)| {
+    let rest = |(body, gaps): (usize, BodyGaps)| {
         let placement = frozen.motion(numbers, body).placement;
         let stretches = match frozen.bodies()[body].kind {
             BodyKind::Rigid(_) => Vec3::repeat(1.0),
@@ -117,7 +126,7 @@ pub(super) fn rest_at(frozen: &mut FrozenSystem, numbers: &[f64]) -> Vec<Rest> {
                 values.into()
             }
         };
-        let gap = gaps.into_iter().fold(f64::INFINITY, f64::min);
+        let gap = gaps.least();
         let pressure = frozen.pressure(numbers, body);
         let block = frozen.block(numbers, body);
         Rest { placement, stretches, pressure, gap, contraction: None, block }
@@ -133,7 +142,9 @@ struct Balance {
     /// K.
     stiffness: DMatrix<f64>,
     /// The gaps of each body [m].
-    gaps: Vec<Vec<f64>>,
+    gaps: Vec<BodyGaps>,
+    /// What keeps them apart.
+    barriers: Barriers,
     /// The lengths by which the ways of their centres are judged [m].
     lengths: Vec<f64>,
     /// P⁻¹ of each.
@@ -144,12 +155,14 @@ impl Balance {
     fn at(frozen: &mut FrozenSystem, numbers: &[f64]) -> Result<Self, NoRest> {
         let coordinates = SystemCoordinates::at(frozen, numbers)?;
         let gaps = frozen.gaps(numbers);
+        let barriers = Barriers::at(frozen, numbers);
         let size = |body: usize| frozen.bodies()[body].size;
-        let shortest = |(body, gaps): (usize, &Vec<f64>)| gaps.iter().copied().fold(size(body), f64::min);
+        let shortest = |(body, gaps): (usize, &BodyGaps)| gaps.least().min(size(body));
         let lengths: Vec<f64> = gaps.iter().enumerate().map(shortest).collect();
         Ok(Self {
             force: coordinates.force(&frozen.rates(numbers)?),
             stiffness: coordinates.stiffness(&frozen.slopes(numbers)?),
+            barriers,
             lengths,
             inverses: (0..frozen.count()).map(|body| frozen.inverse(numbers, body)).collect(),
             gaps,
@@ -167,6 +180,21 @@ impl Balance {
     }
 }
 
+/// A direction to go, before it is cut by what is in the way.
+struct Way {
+    along: DVector<f64>,
+    /// Whether it is shorter than Newton's step.
+    is_cut: bool,
+}
+
+/// What a step has come to.
+enum Progress {
+    GoesOn,
+    Rests,
+    /// Forces are left, and no part of a step along them is in the model.
+    IsBlocked,
+}
+
 struct Search {
     numbers: Vec<f64>,
     /// The longest way of each centre in a step [m].
@@ -176,32 +204,34 @@ struct Search {
 }
 
 impl Search {
-    /// Goes one step; true at the end.
-    fn step(&mut self, frozen: &mut FrozenSystem) -> Result<bool, NoRest> {
+    /// Goes one step.
+    fn step(&mut self, frozen: &mut FrozenSystem) -> Result<Progress, NoRest> {
         let balance = Balance::at(frozen, &self.numbers)?;
         if balance.force.is_empty() {
-            return Ok(true);
+            return Ok(Progress::Rests);
         }
         let way = self.direction(frozen, &balance);
-        let shapes = balance.coordinates.shapes(frozen, &way);
+        let shapes = balance.coordinates.shapes(frozen, &way.along);
         let size = balance.size(&shapes, &balance.lengths, 1.0);
-        // Newton squares a small step: where it does not even halve, rounding is reached.
+        // Newton squares a small step: where it does not even halve, rounding is reached. One that is as small because
+        // nothing longer was in the model has not come to rest.
         if size == 0.0 || (size < SMALL && size > 0.5 * self.last) {
-            return Ok(true);
+            return Ok(if size > 0.0 && way.is_cut { Progress::IsBlocked } else { Progress::Rests });
         }
         self.last = size;
         let mut grow = |factor: f64| self.reach.iter_mut().for_each(|reach| *reach *= factor);
-        match Self::take(frozen, (&mut self.numbers, self.last), &balance, &way) {
+        match Self::take(frozen, (&mut self.numbers, self.last), &balance, &way.along) {
             Some(part) => grow(if part == 1.0 { 2.0 } else { 0.5 }),
+            None if size < SMALL && way.is_cut => return Ok(Progress::IsBlocked),
             // No part of it is admissible or of use: at rounding.
-            None if size < SMALL => return Ok(true),
+            None if size < SMALL => return Ok(Progress::Rests),
             None => grow(0.25),
         }
-        Ok(false)
+        Ok(Progress::GoesOn)
     }
 
-    /// The step before it is cut.
-    fn direction(&self, frozen: &FrozenSystem, balance: &Balance) -> DVector<f64> {
+    /// The step, no longer than the reach.
+    fn direction(&self, frozen: &FrozenSystem, balance: &Balance) -> Way {
         let Balance { coordinates, force, stiffness, .. } = balance;
         let Basis { vectors, values, zero } = canonical::eigen(stiffness);
         let along = vectors.transpose() * force;
@@ -232,7 +262,7 @@ impl Search {
             }
         }
         let solved = matrix.lu().solve(&right).unwrap_or_else(|| DVector::zeros(right.len()));
-        vectors * solved
+        Way { along: vectors * solved, is_cut: least > 0.0 }
     }
 
     /// Takes the largest part 1, ½, ¼ … of a step that is admissible and goes downhill; none if there is none.
@@ -242,7 +272,7 @@ impl Search {
         balance: &Balance,
         way: &DVector<f64>,
     ) -> Option<f64> {
-        let Balance { coordinates, force, gaps, .. } = balance;
+        let Balance { coordinates, force, gaps, barriers, .. } = balance;
         let volumes = |frozen: &FrozenSystem, numbers: &[f64]| -> Vec<f64> {
             (0..frozen.count()).map(|body| frozen.motion(numbers, body).placement.gradient.determinant()).collect()
         };
@@ -254,8 +284,11 @@ impl Search {
             let is_held = frozen.project(&mut ahead);
             let keeps_volume = volumes(frozen, &ahead).iter().zip(&before).all(|(new, old)| *new > LEAST_KEPT * old);
             let new_gaps = frozen.gaps(&ahead);
-            let mut both = new_gaps.iter().flatten().zip(gaps.iter().flatten());
-            let kept = is_held && keeps_volume && both.all(|(new, old)| *new > LEAST_KEPT * old || new.is_infinite());
+            let keeps = |(new, old): (&BodyGaps, &BodyGaps)| {
+                new.to_supports.iter().zip(&old.to_supports).all(|(new, old)| *new > LEAST_KEPT * old)
+            };
+            let keeps_gaps = new_gaps.iter().zip(gaps).all(keeps);
+            let kept = is_held && keeps_volume && keeps_gaps && barriers.hold(frozen, &ahead);
             if kept && let Ok(rates) = frozen.rates(&ahead) {
                 let (before, after) = (force.dot(way), coordinates.force(&rates).dot(way));
                 // Forces at rest are rounding; their work tells nothing.

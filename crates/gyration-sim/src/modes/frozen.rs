@@ -9,6 +9,7 @@ use gyration::contact::{Action, Term};
 use gyration::contractile::ContractionSource;
 use gyration::dynamics::{Held, JointEquation, Workspace, jacobian, rates};
 use gyration::fluid::Fluid;
+use gyration::instant::PairGaps;
 use gyration::lattice::Cell;
 use gyration::load::{Interaction, Party};
 use gyration::model::Model;
@@ -44,6 +45,22 @@ pub(super) struct FrozenSystem {
 const HOLDS: usize = 10;
 /// Joints hold to this part of the smallest body, as at a start.
 const HELD: f64 = 1e-9;
+
+/// The gaps of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct BodyGaps {
+    /// The smallest distances to the supports that push or pull at it [m].
+    pub to_supports: Vec<f64>,
+    /// The smallest slab between it and what it meets besides, infinite if there is none within reach [m].
+    pub to_others: f64,
+}
+
+impl BodyGaps {
+    /// The smallest of all; infinite if there is none [m].
+    pub fn least(&self) -> f64 {
+        self.to_supports.iter().copied().fold(self.to_others, f64::min)
+    }
+}
 
 /// What the contractions of a frozen system do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,6 +132,21 @@ impl FrozenSystem {
 
     pub fn bodies(&self) -> &[Arc<Body>] {
         &self.model.bodies
+    }
+
+    /// The bodies alone.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The instant at which all is frozen [s].
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// The slabs between bodies that were found last.
+    pub fn found_gaps(&self) -> &PairGaps {
+        self.workspace.found_gaps()
     }
 
     /// What leads to other cells: the cell, and the force on the body in this one [N].
@@ -239,16 +271,14 @@ impl FrozenSystem {
         holding.map(|support| self.model.supports[support].normal).chain(kept).collect()
     }
 
-    /// The smallest distances of each body to the supports that push or pull at it, then the smallest slab between it
-    /// and what it meets besides, infinite if there are none within reach [m].
-    pub fn gaps(&mut self, numbers: &[f64]) -> Vec<Vec<f64>> {
+    /// The gaps of each body.
+    pub fn gaps(&mut self, numbers: &[f64]) -> Vec<BodyGaps> {
         let Self { model, workspace, time, .. } = self;
         let is_found = !model.rules().is_empty() && workspace.pair_gaps(model, *time, numbers.into()).is_ok();
         let gaps = |body: usize| {
             let apart = is_found.then(|| self.workspace.found_gaps().of(body).map(|slab| slab.gap));
-            let apart = apart.into_iter().flatten().fold(f64::INFINITY, f64::min);
-            let meets = self.model.has_pairs(body);
-            self.support_gaps(numbers, body).chain(meets.then_some(apart)).collect()
+            let to_others = apart.into_iter().flatten().fold(f64::INFINITY, f64::min);
+            BodyGaps { to_supports: self.support_gaps(numbers, body).collect(), to_others }
         };
         (0..self.count()).map(gaps).collect()
     }

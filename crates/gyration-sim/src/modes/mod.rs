@@ -16,6 +16,7 @@
 //! would be does not matter. Nothing here steps in time.
 
 pub mod bands;
+mod barriers;
 mod canonical;
 mod contraction;
 mod coordinates;
@@ -134,6 +135,17 @@ pub enum NoRest {
          1/s²) are left; a couple or a load without potential may turn the body for ever"
     )]
     NotFound {
+        /// Steps taken.
+        steps: usize,
+        /// The largest acceleration left, in numbers of the state.
+        acceleration: f64,
+    },
+    /// The search came to an edge of the model.
+    #[error(
+        "no rest state was found: the way downhill ends where the model does, after {steps} steps from the start, with \
+         accelerations of up to {acceleration:.2e} (m/s², 1/s²) left"
+    )]
+    Blocked {
         /// Steps taken.
         steps: usize,
         /// The largest acceleration left, in numbers of the state.

@@ -50,7 +50,7 @@ pub(super) fn settled(frozen: &mut FrozenSystem, start: Vec<f64>) -> Result<Opti
         let gaps = frozen.gaps(&numbers);
         let shapes = coordinates.shapes(frozen, &z);
         let strain = shapes.iter().enumerate().map(|(body, shape)| {
-            let length = gaps[body].iter().copied().fold(frozen.bodies()[body].size, f64::min);
+            let length = gaps[body].least().min(frozen.bodies()[body].size);
             (shape.translation.norm() / length).max((shape.gradient * frozen.inverse(&numbers, body)).norm())
         });
         let strain = strain.fold(0.0, f64::max).max(strains.norm());
