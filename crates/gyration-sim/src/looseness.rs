@@ -1,12 +1,14 @@
 //! What the energies of a state leave open: so much a ledger that is right may miss.
 //!
-//!   Σ |f| (atol·size + rtol·min(g, size)) + Σ (8(ν−1) + ν size/g) ε U
+//!   Σ |f| (atol·size + rtol·min(g, size)) + Σ (8(ν−1) + ν size/g) ε U + Σ 16 ε V |∂S/∂P|
 //!
 //! The first sum is over the contacts, springs and pairs of all bodies: the step control allows each length the error
 //! in brackets, and the energy of what is loaded at rest feels it at first order, however small the motion about it is.
-//! The second is over the pairs of bodies, whose gaps are differences: the rounding of their energies.
+//! The second is over the pairs of bodies, whose gaps are differences, the third over bodies with a material, whose
+//! strains are: the rounding of their energies.
 
 use crate::adapter::Tolerance;
+use crate::scales::{ROUNDING, elastic_stiffness};
 use gyration::Inadmissible;
 use gyration::dynamics::{Workspace, each_push};
 use gyration::model::Model;
@@ -18,15 +20,15 @@ use std::ops::Add;
 pub(crate) struct Looseness {
     /// Forces times the lengths that the step control allows [J].
     pub of_lengths: f64,
-    /// The rounding of the energies of pairs [J].
-    pub of_pairs: f64,
+    /// The rounding of the energies of pairs and strains [J].
+    pub of_energies: f64,
 }
 
 impl Add for Looseness {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
-        Self { of_lengths: self.of_lengths + other.of_lengths, of_pairs: self.of_pairs + other.of_pairs }
+        Self { of_lengths: self.of_lengths + other.of_lengths, of_energies: self.of_energies + other.of_energies }
     }
 }
 
@@ -45,9 +47,10 @@ impl Looseness {
         let (instant, scratch) = workspace.read(model, state)?;
         let mut sum = Self::default();
         for (index, body) in model.bodies.iter().enumerate() {
+            sum.of_energies += ROUNDING * elastic_stiffness(body);
             each_push(&instant.at(index), scratch, |push| {
                 let of_lengths = push.force * (atol * body.size + rtol * push.gap.min(body.size));
-                sum = sum + Self { of_lengths, of_pairs: push.rounding };
+                sum = sum + Self { of_lengths, of_energies: push.rounding };
             })?;
         }
         Ok(sum)
@@ -57,6 +60,6 @@ impl Looseness {
     /// impact in which it ends, and the larger rounding.
     #[must_use]
     pub fn over(self, end: Self) -> Self {
-        Self { of_lengths: self.of_lengths.min(end.of_lengths), of_pairs: self.of_pairs.max(end.of_pairs) }
+        Self { of_lengths: self.of_lengths.min(end.of_lengths), of_energies: self.of_energies.max(end.of_energies) }
     }
 }

@@ -103,8 +103,8 @@ impl RunState {
     /// Run state and islands as bytes.
     pub(crate) fn checkpoint(&self, islands: impl Iterator<Item = IslandMemory>) -> Vec<u8> {
         let integers = [self.next_sample, self.events[0], self.events[1], self.events[2]];
-        let Looseness { of_lengths, of_pairs } = self.looseness;
-        let reals = [self.time, self.initial_energy, self.largest_residual, of_lengths, of_pairs, self.smallest_gap];
+        let Looseness { of_lengths, of_energies } = self.looseness;
+        let reals = [self.time, self.initial_energy, self.largest_residual, of_lengths, of_energies, self.smallest_gap];
         let mut bytes = Vec::new();
         let mut list = |numbers: &mut dyn ExactSizeIterator<Item = u64>| put_list(&mut bytes, numbers);
         list(&mut integers.into_iter());
@@ -123,9 +123,9 @@ impl RunState {
         let integers: [u64; 4] = list(&mut rest)?.try_into().ok()?;
         let reals = list(&mut rest)?;
         let (reals, impulses) = reals.split_first_chunk::<6>()?;
-        let [time, initial_energy, largest_residual, of_lengths, of_pairs, smallest_gap] = reals.map(f64::from_bits);
+        let [time, initial_energy, largest_residual, of_lengths, of_energies, smallest_gap] = reals.map(f64::from_bits);
         let sampled_impulses = impulses.iter().map(|bits| f64::from_bits(*bits)).collect();
-        let looseness = Looseness { of_lengths, of_pairs };
+        let looseness = Looseness { of_lengths, of_energies };
         let [next_sample, events @ ..] = integers;
         let settled = Settled::read(&mut rest)?;
         if !(time.is_finite() && integers.iter().all(|count| *count < MOST_COUNTED)) {

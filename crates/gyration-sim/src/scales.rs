@@ -11,6 +11,7 @@ use gyration::instant::{BodyAt, MotionAt};
 use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
+use gyration::tensor::Mat3;
 use gyration_ode::Components;
 use std::convert::Infallible;
 use std::ops::Range;
@@ -27,14 +28,20 @@ pub(crate) fn energy_scale(model: &Model, body: &Body, speed: f64) -> f64 {
 /// A speed below this part of a size in a period of what drives the body is the rounding of none: a drive may begin
 /// where it turns round.
 const TURNING: f64 = 1e-9;
+/// The speed scale of a body with a material that nothing moves, over that of its elastic waves: its tolerances are
+/// then no less than the rounding of stresses.
+const STIRRED: f64 = 1e-4;
+/// Stresses below this part of those of a strain of one, and their energies, are rounding.
+pub(crate) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The speed scales of the bodies of a run [m/s]; those of an island are the same as those of the run.
 ///
 /// A body's own scale is its initial speed or √(g·size), or one size in a period of what drives it. A body that starts
 /// at rest without gravity takes that of the accelerations which contacts, springs and other bodies would give it one
-/// by one, or the speed of a support: where they cancel, what is left is rounding. Whatever bodies act on one another,
-/// however far they are, may share their motion: each takes the largest speed among them, as far as their largest
-/// momentum would move it. A body that nothing moves takes one size a second.
+/// by one, or the speed of a support: where they cancel, what is left is rounding, and so is the stress of a body that
+/// is only turned. Whatever bodies act on one another, however far they are, may share their motion: each takes the
+/// largest speed among them, as far as their largest momentum would move it. A body that nothing moves takes one size a
+/// second, or a part of the speed of its elastic waves, of which the rounding of its stresses is 1e-16.
 ///
 /// # Errors
 /// [`Inadmissible`] if the start is outside the model.
@@ -55,10 +62,9 @@ pub(crate) fn speed_scales(model: &Model, start: &State, slopes: &[f64]) -> Resu
         let momentum = moving().map(|body| mass(*body) * scales[*body]).fold(0.0, f64::max);
         moving().for_each(|body| scales[*body] = scales[*body].max(speed.min(momentum / mass(*body))));
     }
-    for (scale, body) in scales.iter_mut().zip(&model.bodies) {
-        if *scale == 0.0 {
-            *scale = body.size;
-        }
+    for (scale, body) in scales.iter_mut().zip(&model.bodies).filter(|(scale, _)| **scale == 0.0) {
+        let stirred = if body.has_inertia() { STIRRED * elastic_frequency(body) } else { 0.0 };
+        *scale = body.size * f64::max(1.0, stirred);
     }
     Ok(scales)
 }
@@ -92,6 +98,8 @@ fn pushed(at: &BodyAt, slopes: &[f64], scratch: &mut Scratch) -> Result<f64, Ina
     let slots = model.slots(index);
     let norm = |slot: Range<usize>| slopes[slot].iter().map(|number| number * number).sum::<f64>().sqrt();
     let acceleration = norm(slots.velocity()) + norm(slots.rate()) * body.size;
+    let of_rounding = ROUNDING * body.size * elastic_frequency(body).powi(2);
+    let acceleration = if acceleration > of_rounding { acceleration } else { 0.0 };
     let mut forces = 0.0;
     each_push(at, scratch, |push| forces += push.force)?;
     let place = &at.motion.placement.position;
@@ -103,6 +111,18 @@ fn pushed(at: &BodyAt, slopes: &[f64], scratch: &mut Scratch) -> Result<f64, Ina
     let anchors = anchors.map(|anchor| anchor.motion.bound(&anchor.start).speed);
     let carried = supports.chain(solids).chain(anchors).fold(0.0, f64::max);
     Ok((acceleration.max(forces / body.solid.mass.mass) * body.size).sqrt().max(carried))
+}
+
+/// V |∂S/∂P| of the material of a body at P = 1 [J]; zero without one.
+pub(crate) fn elastic_stiffness(body: &Body) -> f64 {
+    let material = body.affine().and_then(|affine| affine.interior.material.as_ref());
+    material.map_or(0.0, |material| body.solid.mass.volume * material.tangent(&Mat3::identity()).norm())
+}
+
+/// √(V |∂S/∂P|/J) of a body with a material, J the smallest principal moment [1/s]; zero of others.
+pub(crate) fn elastic_frequency(body: &Body) -> f64 {
+    let stiffness = elastic_stiffness(body);
+    if stiffness == 0.0 { 0.0 } else { (stiffness / body.solid.mass.euler_tensor.symmetric_eigenvalues().min()).sqrt() }
 }
 
 /// √(Σk/m) of the springs at a body [1/s].

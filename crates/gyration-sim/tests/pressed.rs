@@ -179,3 +179,34 @@ fn bodies_that_meet_far_from_the_origin_take_the_steps_that_they_take_there() {
         }
     }
 }
+
+#[test]
+fn a_soft_body_that_is_only_turned_stays_at_rest_without_alarm() {
+    let materials =
+        ["\"rubber\"", "{ neo_hookean = { shear = 5000 } }", "{ mooney_rivlin = { c1 = 3e3, c2 = 1e3, bulk = 1e5 } }"];
+    for material in materials {
+        for radius in [0.1, 1e-3, 1e-4] {
+            let (summary, steps, rows) = run(
+                &format!(
+                    "time = {{ end = 1, sample = 0.1 }}\nworld = {{ gravity = [0, 0, 0] }}\n[[body]]\nname = \"ball\"\n\
+                     shape = {{ sphere = {{ radius = {radius:?} }} }}\ndensity = 1000\naffine = {{ material = {material} }}\n\
+                     orientation = {{ axis_angle = {{ axis = [1, 2, 3], angle = 1 }} }}\n"
+                ),
+                &[],
+            );
+            assert_closed(&summary);
+            let moved = rows[0].iter().zip(&rows[10]).map(|(then, now)| (now - then).abs()).fold(0.0, f64::max);
+            println!("{material}, {radius} m: {steps} steps, moved by {moved:e}");
+            // What it takes is a few steps a second of nothing.
+            assert!(steps < 1000, "{material}, {radius} m: {steps} steps");
+        }
+    }
+    // Held at its centre, the weight does no work.
+    let (summary, ..) = run(
+        "time = { end = 0.5, sample = 0.1 }\n[[body]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\n\
+         density = 1000\naffine = { material = { neo_hookean = { shear = 5000 } } }\npin = [0, 0, 0]\n\
+         orientation = { axis_angle = { axis = [1, 2, 3], angle = 1 } }\n",
+        &[],
+    );
+    assert_closed(&summary);
+}

@@ -107,7 +107,7 @@ fn balance(simulation: &Simulation, energies: &[f64], looseness: Looseness) -> B
         in_play: simulation.energy_in_play(),
         total,
         loaded: looseness.of_lengths,
-        of_pairs: looseness.of_pairs,
+        of_energies: looseness.of_energies,
     }
 }
 

@@ -3,9 +3,10 @@
 //!   |Σ energies − Σ energies at 0 − Σ works| ≤ MARGIN [(rtol + atol) E + Σ|f| δ] + ROUNDING Σ|energies| + ε
 //!
 //! E is the energy in play (`in_play`), f the forces of what is loaded at the start and the end, δ the lengths that the
-//! step control allows, ε the rounding of the energies of pairs (`looseness`). Over a run the residual stays below
-//! rtol·E where the steps are what they claim to be; one that is a hundred times the tolerances has lost or made energy
-//! that no law accounts for. However loose the tolerances are, more than 1 % of E is never taken for closed.
+//! step control allows, ε the rounding of the energies of pairs and strains (`looseness`). Over a run the residual
+//! stays below rtol·E where the steps are what they claim to be; one that is a hundred times the tolerances has lost or
+//! made energy that no law accounts for. However loose the tolerances are, more than 1 % of E is never taken for
+//! closed.
 
 use crate::adapter::Tolerance;
 use serde::Serialize;
@@ -87,8 +88,8 @@ pub struct Balance {
     pub total: f64,
     /// Σ|f| δ, what the tolerances let loaded contacts and springs miss [J].
     pub loaded: f64,
-    /// The rounding of the energies of pairs [J].
-    pub of_pairs: f64,
+    /// The rounding of the energies of pairs and strains [J].
+    pub of_energies: f64,
 }
 
 impl Balance {
@@ -112,7 +113,7 @@ impl Balance {
     }
 
     fn rounding(&self) -> f64 {
-        ROUNDING * self.total + self.of_pairs
+        ROUNDING * self.total + self.of_energies
     }
 }
 
@@ -121,7 +122,7 @@ mod tests {
     use super::*;
 
     fn verdict(residual: f64, rtol: f64) -> Verdict {
-        let balance = Balance { residual, in_play: 2.0, total: 1e3, loaded: 0.0, of_pairs: 0.0 };
+        let balance = Balance { residual, in_play: 2.0, total: 1e3, loaded: 0.0, of_energies: 0.0 };
         balance.verdict(Tolerance { rtol, atol: 0.01 * rtol })
     }
 
@@ -154,7 +155,7 @@ mod tests {
 
     #[test]
     fn the_rounding_of_large_energies_is_no_residual() {
-        let still = Balance { residual: 1e-13, in_play: 0.0, total: 1e3, loaded: 0.0, of_pairs: 0.0 };
+        let still = Balance { residual: 1e-13, in_play: 0.0, total: 1e3, loaded: 0.0, of_energies: 0.0 };
         assert_eq!(still.verdict(Tolerance { rtol: 1e-14, atol: 0.0 }), Verdict::Closed);
         assert!(still.is_rounding());
     }
