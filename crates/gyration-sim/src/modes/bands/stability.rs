@@ -1,8 +1,8 @@
 //! The wave against which a lattice is least stable: the least ω² over the zone.
 //!
-//! ω² are the eigenvalues of the Hermitian part of K(κ), whatever resists. A mesh tells where to begin, a search among
-//! neighbours in shrinking steps goes down from there. At κ = 0 translations of everything are left out; what long
-//! waves do instead is told by ω²/k² (`sound`), of which the least over all directions is sought in the same way.
+//! ω² are the eigenvalues of the Hermitian part of K(κ), whatever resists. A mesh tells where to begin, a search in
+//! shrinking steps goes down from there. At κ = 0 translations of everything are left out; what long waves do instead
+//! is told by ω²/k² (`sound`), of which the least over all directions is sought in the same way.
 
 use super::eigenspaces::{hermitian, hermitian_eigen};
 use super::{LatticeWaves, NoBands};
@@ -11,6 +11,8 @@ use gyration_threads::Interruption;
 
 /// ω² below zero by less than this part of the stiffest is rounding.
 const ROUNDING: f64 = 1e-10;
+/// ω² that differ by less than this part of the stiffest are the same.
+const LEVEL: f64 = 1e-14;
 /// The shortest step in κ.
 const SHORTEST: f64 = 1e-8;
 /// The length in κ by which the direction of long waves is told.
@@ -90,7 +92,8 @@ impl LatticeWaves {
             }
         }
         let step = 0.5 / mesh as f64;
-        let found = lowest(least.kappa, &axes, step, least_at)?.map(folded);
+        let level = |_| LEVEL * self.system.stiffest;
+        let found = lowest(least.kappa, (&axes, step), level, least_at)?.map(folded);
         let there = self.least_at(&found)?;
         let is_long = found.iter().all(|part| part.abs() < step);
         // A stable lattice has its least ω² beside κ = 0, where it is trivial.
@@ -165,7 +168,8 @@ impl LatticeWaves {
             }
         }
         if axes.len() > 1 && slowest.0.is_finite() {
-            let found = lowest(slowest.1, axes, 0.05, of)?;
+            let level = |here: f64| LEVEL * here.abs();
+            let found = lowest(slowest.1, (axes, 0.05), level, of)?;
             slowest = (of(&found)?, found);
         }
         Ok(slowest)
@@ -193,32 +197,46 @@ fn folded(kappa: f64) -> f64 {
     if within <= -0.5 { within + 1.0 } else { within + 0.0 }
 }
 
-/// Goes down along the axes in steps that are halved where no neighbour is lower.
+/// Goes down in steps along the axes, and on along what these add up to for as long as that falls: valleys may run
+/// across the axes. Steps are halved where no neighbour is lower; what falls by less than `level` is as high.
+///
+/// Source: R. Hooke, T. A. Jeeves, *"Direct search" solution of numerical and statistical problems*, J. ACM 8 (1961).
 fn lowest(
     from: [f64; 3],
-    axes: &[usize],
-    first: f64,
+    (axes, first): (&[usize], f64),
+    level: impl Fn(f64) -> f64,
     of: impl Fn(&[f64; 3]) -> Result<f64, NoBands>,
 ) -> Result<[f64; 3], NoBands> {
-    let (mut at, mut step) = (from, first);
-    let mut here = of(&at)?;
-    while step > SHORTEST {
-        let mut best = (here, at);
+    let explore = |from: [f64; 3], step: f64| {
+        let (mut here, mut at) = (of(&from)?, from);
         for axis in axes {
             for side in [-step, step] {
                 let mut beside = at;
                 beside[*axis] += side;
                 let there = of(&beside)?;
-                if there < best.0 {
-                    best = (there, beside);
+                if there < here - level(here) {
+                    (here, at) = (there, beside);
+                    break;
                 }
             }
         }
-        // What falls by rounding alone is level.
-        if best.0 < here - 1e-14 * here.abs() {
-            (here, at) = best;
-        } else {
+        Ok::<_, NoBands>((here, at))
+    };
+    let (mut at, mut step) = (from, first);
+    while step > SHORTEST {
+        let (mut lower, mut ahead) = explore(at, step)?;
+        if ahead == at {
             step *= 0.5;
+            continue;
+        }
+        loop {
+            let beyond = std::array::from_fn(|a| 2.0 * ahead[a] - at[a]);
+            at = ahead;
+            let (there, found) = explore(beyond, step)?;
+            if there >= lower - level(lower) {
+                break;
+            }
+            (lower, ahead) = (there, found);
         }
     }
     Ok(at)
