@@ -38,7 +38,8 @@ pub mod units;
 mod unknown;
 
 pub use assemble::{
-    Built, CellBlock, CellLoad, Packet, Plan, Record, StartingWave, StopAtRest, TRIANGLES, UnitCell, WaveStart,
+    Built, CellBlock, CellLoad, ENDLESS_CELLS, Packet, Plan, Record, StartingWave, StopAtRest, TRIANGLES, UnitCell,
+    WaveStart,
 };
 pub use error::{ErrorKind, LoadError, NotToml, ReadError, SceneError, SceneErrors};
 pub use file::{Method, Recorded};

@@ -2,10 +2,11 @@
 
 use crate::islands::parsed;
 use crate::runs::provenance;
+use gyration::dynamics::{Workspace, rates};
 use gyration::tensor::Vec3;
 use gyration_scene::Scene;
 use gyration_sim::survey::modes;
-use gyration_sim::{FirstSteps, Job, MemorySink, Outcome, Reason, Simulation, Unwatched};
+use gyration_sim::{FirstSteps, Job, MemorySink, Outcome, Reason, Remarks, Simulation, Unwatched};
 
 /// Balls in a row that press on one another.
 fn balls(lattice: &str, body: &str, contact: &str) -> Scene {
@@ -86,4 +87,63 @@ fn a_cell_of_one_body_is_a_system_with_its_images() {
     assert_eq!((rest.modes.len(), found.bodies[0].system), (6, Some(0)));
     let [(_, place)] = &rest.bodies.0[..] else { panic!("{:?}", rest.bodies) };
     assert!((place.gap.unwrap() - 3e-4).abs() < 1e-12);
+}
+
+/// The forces on the first bodies of a row of six, and the energy of the contacts.
+fn pushed(text: &str) -> Vec<f64> {
+    let scene = parsed(text, &[]);
+    let built = scene.built();
+    let mut workspace = Workspace::default();
+    let (mut slopes, mut powers) = (vec![0.0; built.state.bodies.len()], vec![0.0; built.model.works().len()]);
+    rates(&built.model, &mut workspace, 0.0, built.state.numbers(), &mut slopes, &mut powers).unwrap();
+    (0..6).map(|body| slopes[built.model.slots(body).velocity().start]).collect()
+}
+
+#[test]
+fn no_pair_of_a_row_with_free_ends_is_left_out_without_a_reach() {
+    let start = "world = { gravity = [0, 0, 0] }\ntime = { end = 1, sample = 1 }\n[[contact]]\nbetween = [\"g\", \"g\"]\n\
+        repulsion = { alpha = 100, nu = 2.5, d0 = 0.02 }\n";
+    let ball = |name: &str, x: f64| {
+        format!(
+            "[[body]]\nname = \"{name}\"\ngroup = \"g\"\ndensity = 1000\nposition = [{x}, 0, 0]\n\
+             shape = {{ sphere = {{ radius = 0.01 }} }}\n"
+        )
+    };
+    let written: String = (0..6).map(|k| ball(&format!("a{k}"), 0.1 * f64::from(k))).collect();
+    let lattice = format!("[lattice]\ncell = [[0.1, 0, 0]]\nrepeat = [6, 1, 1]\nperiodic = false\n{}", ball("a", 0.0));
+    let (expected, found) = (pushed(&format!("{start}{written}")), pushed(&format!("{start}{lattice}")));
+    let off = expected.iter().zip(&found).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
+    println!("off by {off:e} of {:e}", expected[0]);
+    // Places are sums in another order.
+    assert!(off < 1e-12 * expected[0].abs(), "{expected:?}, {found:?}");
+}
+
+#[test]
+fn a_body_that_outgrows_its_cell_strays() {
+    let growing = "affine = {}\ngradient_rate = [[0, 0, 0], [0, 10, 0], [0, 0, 0]]";
+    let (outcome, ..) = run(&balls("repeat = [3, 1, 1]", growing, "measure = \"reference_area\"\nreach = 0.002"));
+    let Outcome::Stopped(stop) = outcome else { panic!("{outcome:?}") };
+    assert!(stop.reason == Reason::Strayed && stop.what.contains("\"a-"), "{stop:?}");
+    // Half a cell, 0.02015 m, beyond a radius of 0.02 m that grows at 0.2 m/s.
+    assert!((stop.time - 0.10075).abs() < 1e-3, "{}", stop.time);
+}
+
+#[test]
+fn images_that_matter_and_are_left_out_are_told() {
+    let told = |lattice: &str, nu: f64, contact: &str| {
+        let text = format!(
+            "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 1, sample = 1 }}\n[lattice]\ncell = [[0.1, 0, 0]]\n\
+             {lattice}\n[[body]]\nname = \"a\"\ndensity = 1000\nshape = {{ sphere = {{ radius = 0.01 }} }}\n[[contact]]\n\
+             between = [\"a\", \"a\"]\nrepulsion = {{ alpha = 100, nu = {nu}, d0 = 0.02 }}\n{contact}\n"
+        );
+        let scene = parsed(&text, &[]);
+        let built = scene.built();
+        let told = Remarks::at_start(&built.model, &built.state, 1e-8).warnings;
+        told.iter().any(|warning| warning.contains("images of the lattice farther than 0.2 m are left out"))
+    };
+    for lattice in ["repeat = [6, 1, 1]", "", "repeat = [2, 1, 1]"] {
+        assert!(told(lattice, 2.5, "") && told(lattice, 6.0, ""), "{lattice}");
+        assert!(!told(lattice, 2.5, "reach = 0.45") && !told(lattice, 40.0, ""), "{lattice}");
+    }
+    assert!(!told("repeat = [6, 1, 1]\nperiodic = false", 2.5, ""));
 }

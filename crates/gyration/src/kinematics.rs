@@ -38,6 +38,13 @@ pub struct Velocity {
 }
 
 impl Placement {
+    /// A bound on |P X|/|X|: √‖PᵀP‖_∞.
+    pub fn stretch_bound(&self) -> f64 {
+        let square = self.gradient.tr_mul(&self.gradient);
+        let sums = square.row_iter().map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>());
+        sums.fold(0.0, f64::max).sqrt()
+    }
+
     /// The place p₀ + P X [m] of the material point X (from the centre of mass).
     pub fn place(&self, point: &Vec3) -> Vec3 {
         self.position + self.gradient * point

@@ -12,7 +12,7 @@ use gyration::load::{
     Bond, BondAxes, BondLaw, BondStiffness, DISTANCE_NAMES, Dashpot, InvariantPotential, Spring, Stiffness6,
 };
 use gyration::model::Model;
-use gyration::neighbours::{BodyPair, ImagePair, ImagePairs, PairRule};
+use gyration::neighbours::{BodyPair, Extent, ImagePair, ImagePairs, PairRule};
 use gyration::pair::PairLaws;
 use gyration::shape::{Shape, Sphere};
 use gyration::state::State;
@@ -136,21 +136,30 @@ fn blocks_between_bodies_that_meet_across_cells_are_derivatives_of_the_rates() {
     };
     let own = (0..count).map(|body| image(body, body, 1));
     let beside = (0..count - 1).flat_map(|body| [-1, 0, 1].map(|n| image(body, body + 1, n)));
-    let images = ImagePairs::new(own.chain(beside).collect(), (0..count).map(place).collect(), 0.6);
+    let images = ImagePairs::new(own.chain(beside).collect(), (0..count).map(|k| extent(place(k), 1.0)).collect(), 0.6);
     let model = model.meeting_images(vec![rule], images);
     let state = state_at(&model, place);
     assert_blocks_are_derivatives(&model, &state);
     assert_power_is_the_rate_of_energy(&model, &state);
 }
 
+fn extent(place: Vec3, radius: f64) -> Extent {
+    Extent { place, radius }
+}
+
 #[test]
 fn a_body_strays_where_the_others_do_not_go_along() {
-    let images = ImagePairs::new(Vec::new(), vec![Vec3::x(), Vec3::y()], 0.5);
+    let images = ImagePairs::new(Vec::new(), vec![extent(Vec3::x(), 0.2), extent(Vec3::y(), 0.2)], 0.5);
     let drift = Vec3::new(7.0, 0.0, -3.0);
     let at = |away: f64| {
-        images.strayed(move |body| drift + if body == 0 { Vec3::x() } else { Vec3::y() + away * Vec3::z() })
+        let place = move |body: usize| if body == 0 { Vec3::x() } else { Vec3::y() + away * Vec3::z() };
+        images.strayed(move |body| extent(drift + place(body), 0.2))
     };
     assert!(at(0.4).is_none());
     let (body, distance) = at(0.75).unwrap();
     assert!(body == 1 && (distance - 0.75).abs() < 1e-14);
+    // What it grows counts as well.
+    let grown = |radius: f64| images.strayed(move |body| extent([Vec3::x(), 1.3 * Vec3::y()][body], radius));
+    assert!(grown(0.1).is_none() && grown(0.35).is_none());
+    assert!(grown(0.45).is_some_and(|(body, distance)| body == 1 && (distance - 0.55).abs() < 1e-14));
 }

@@ -8,7 +8,7 @@ use super::context::SceneContext;
 use super::partners::{Names, Partners};
 use super::random::{Around, RandomPlaces};
 use super::solids::Solids;
-use super::start::{placement, stretch};
+use super::start::placement;
 use super::support::AssembledSupports;
 use crate::check::{Copies, PartialScene, Reporter};
 use crate::file::RandomCopies;
@@ -94,7 +94,7 @@ impl AssembledBodies {
     ) {
         let placed = prepared.placed;
         let Some(start) = self.starts[placed.number].as_ref() else { return };
-        let radius = stretch(&placement(start).gradient) * prepared.solid.radius().unwrap_or(0.0);
+        let radius = placement(start).stretch_bound() * prepared.solid.radius().unwrap_or(0.0);
         let numbers = partial.numbers.range(placed.number);
         let around = self.around((partial, names, supports), &numbers);
         let drawn = RandomPlaces { written, radius, position: si(&placed.value.position), around: &around }.draw();

@@ -1,20 +1,24 @@
 //! Pairs of bodies across the cells of a lattice.
+//!
+//! Of a lattice with free ends no pair is left out unless its rule has a reach. In a direction that repeats without end
+//! images count as far as two of the longest cell vector, if there is no reach.
 
 use super::body::AssembledBody;
 use super::lattice::Cells;
 use super::pair::overlap_in_words;
-use super::start::{placement, stretch};
+use super::start::placement;
 use crate::check::Reporter;
 use crate::key::Key;
 use gyration::body::Solid;
 use gyration::kinematics::Placement;
 use gyration::lattice::{Cell, HERE};
-use gyration::neighbours::{BodyPair, ImagePair, ImagePairs, PairRule};
+use gyration::neighbours::{BodyPair, Extent, ImagePair, ImagePairs, PairRule};
 use gyration::pair::Overlap;
 use gyration::tensor::Vec3;
 
-/// Without a reach images count that are no farther away than so many times the longest cell vector.
-const FAR: f64 = 2.0;
+/// Without a reach, and with a direction that repeats, images count that are no farther away than so many times the
+/// longest cell vector.
+pub const ENDLESS_CELLS: f64 = 2.0;
 
 /// The bodies of a cell that meet, and the cell of the second.
 #[derive(Debug, Clone, Copy)]
@@ -33,8 +37,8 @@ struct Extents<'a> {
 
 /// The pairs of all cells by the rules of one, each of which is written at a key; notes bodies that overlap an image.
 ///
-/// Listed are those that come within reach while no body strays from its start, beside the first one, by more than half
-/// the shortest cell vector.
+/// Listed are those that come within reach while no body strays from its start, beside the first one, and grows by more
+/// than half the shortest cell vector.
 pub(super) fn images(
     cells: &Cells,
     (rules, keys): (&[PairRule], &[Key]),
@@ -52,7 +56,8 @@ pub(super) fn images(
     for (number, rule) in rules.iter().enumerate() {
         let range = match rule.reach {
             Some(reach) => reach.longest() + 2.0 * stray,
-            None => FAR * lengths().fold(0.0, f64::max),
+            None if cells.end_everywhere() => f64::INFINITY,
+            None => ENDLESS_CELLS * lengths().fold(0.0, f64::max),
         };
         for Met { bodies, cell } in extents.met(cells, rule, range) {
             extents.check(Met { bodies, cell }, &cells.lattice.place(cell), &keys[number], reporter);
@@ -63,17 +68,15 @@ pub(super) fn images(
             }));
         }
     }
-    let starts = extents.placements.iter().flat_map(|place| vec![place.position; cells.count()]);
+    let starts = extents.placements.iter().zip(&extents.radii);
+    let starts = starts.flat_map(|(at, radius)| vec![Extent { place: at.position, radius: *radius }; cells.count()]);
     Some(ImagePairs::new(all, starts.collect(), stray))
 }
 
 impl<'a> Extents<'a> {
     fn of(bodies: &'a [AssembledBody]) -> Self {
         let placements: Vec<Placement> = bodies.iter().map(|body| placement(&body.start)).collect();
-        let spread = |(body, place): (&AssembledBody, &Placement)| {
-            stretch(&place.gradient) * body.body.solid.radius().unwrap_or(0.0)
-        };
-        let radii = bodies.iter().zip(&placements).map(spread).collect();
+        let radii = bodies.iter().zip(&placements).map(|(body, place)| body.body.radius_at(place)).collect();
         Self { bodies, placements, radii }
     }
 

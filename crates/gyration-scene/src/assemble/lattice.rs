@@ -183,6 +183,11 @@ impl Cells {
         body * self.count() + cell
     }
 
+    /// Whether it ends in all its directions.
+    pub fn end_everywhere(&self) -> bool {
+        self.periodic[..self.lattice.vectors().len()].iter().all(|periodic| !periodic)
+    }
+
     /// The offsets to cells of which there may be bodies within a distance of one another [m], and that lead somewhere.
     pub fn offsets(&self, range: f64) -> Vec<Cell> {
         let reciprocal = self.lattice.reciprocal();

@@ -45,6 +45,7 @@ mod wave;
 
 pub(crate) use context::SceneContext;
 pub use fluid::TRIANGLES;
+pub use images::ENDLESS_CELLS;
 pub(crate) use salvage::salvage;
 pub use wave::{Packet, StartingWave, WaveStart};
 

@@ -4,7 +4,7 @@ use super::body::AssembledBody;
 use super::convex::convex_help;
 use super::partners::without_surface;
 use super::reach;
-use super::start::{placement, stretch};
+use super::start::placement;
 use super::support::AssembledSupports;
 use crate::check::Reporter;
 use crate::file::Contact;
@@ -198,7 +198,7 @@ impl WithSupport<'_> {
 /// A sphere that holds a body.
 fn sphere(assembled: &AssembledBody, placement: &Placement) -> Sphere {
     let Some(radius) = assembled.body.solid.radius() else { return Sphere::NOWHERE };
-    Sphere::new(placement.position, stretch(&placement.gradient) * radius)
+    Sphere::new(placement.position, placement.stretch_bound() * radius)
 }
 
 /// Whether a body can meet others; notes why not.

@@ -4,7 +4,6 @@
 //! gap, is clear of the spheres of those before it, and of the surfaces of what they have contacts with (random
 //! sequential addition). A sphere holds its body however this is turned, so that rotations are drawn apart.
 
-use super::start::stretch;
 use crate::file::RandomCopies;
 use crate::places::CopyPlace;
 use crate::quantity::si;
@@ -35,7 +34,7 @@ impl<'a> Around<'a> {
     pub(super) fn new(planes: Vec<&'a Support>, solids: impl Iterator<Item = (&'a Solid, Placement)>) -> Self {
         let solids: Vec<_> = solids.filter(|(solid, _)| solid.surface.is_some()).collect();
         let bounds = |(solid, placement): &(&Solid, Placement)| {
-            Bounds::about(&placement.position, stretch(&placement.gradient) * solid.radius().unwrap_or_default())
+            Bounds::about(&placement.position, placement.stretch_bound() * solid.radius().unwrap_or_default())
         };
         let boxes = BoxTree::new(solids.iter().map(bounds).zip(0..));
         Self { planes, solids, boxes }

@@ -148,13 +148,6 @@ pub(super) fn placement(start: &Start) -> Placement {
     }
 }
 
-/// A bound on |P X|/|X|: √‖PᵀP‖_∞.
-pub(super) fn stretch(gradient: &Mat3) -> f64 {
-    let square = gradient.tr_mul(gradient);
-    let sums = square.row_iter().map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>());
-    sums.fold(0.0, f64::max).sqrt()
-}
-
 /// A matrix from its rows, in SI units.
 pub(super) fn matrix<T: Into<f64> + Copy>(rows: &[[T; 3]; 3]) -> Mat3 {
     Mat3::from_rows(&[si(&rows[0]).transpose(), si(&rows[1]).transpose(), si(&rows[2]).transpose()])

@@ -2,6 +2,7 @@
 
 use super::cell::{unit_cell, waves_of};
 use super::modes::{Named, RestPlace, left_out};
+use super::remarks::endless;
 use super::varied_bands::{BandNumber, VariedBands};
 use crate::modes::PARTS;
 use crate::modes::bands::{
@@ -182,7 +183,7 @@ impl BandSurvey {
             begins: points().filter(|(_, point)| point.begins).map(|(row, _)| row).collect(),
             sound: waves.sound(&cell.periodic).map_err(told)?,
             rest: cell_rest(waves, &names),
-            warnings: [warnings_of(waves, &rows), unsure(&found.numbers)].concat(),
+            warnings: [warnings_of(cell, waves, &rows), unsure(&found.numbers)].concat(),
             zone,
         })
     }
@@ -242,9 +243,12 @@ pub(super) fn cell_rest(waves: &LatticeWaves, names: &[&str]) -> CellRestSurvey 
     }
 }
 
-/// A cell that does not rest, waves that grow, contractions that go on.
-pub(super) fn warnings_of(waves: &LatticeWaves, rows: &[BandRow]) -> Vec<String> {
-    let mut warnings = Vec::new();
+/// A bound on what is left out of the contacts that is not told: bands are exact but for rounding.
+const LEFT_OUT: f64 = 1e-10;
+
+/// Images that are left out, a cell that does not rest, waves that grow, contractions that go on.
+pub(super) fn warnings_of(cell: &UnitCell, waves: &LatticeWaves, rows: &[BandRow]) -> Vec<String> {
+    let mut warnings: Vec<String> = endless(&cell.model, &cell.state, LEFT_OUT).into_iter().collect();
     if let Some(left) = waves.rest().unrest {
         warnings.push(format!(
             "the cell as it is written does not rest: accelerations of {left:.2e} in units of the bodies' sizes are \

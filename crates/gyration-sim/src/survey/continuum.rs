@@ -103,7 +103,7 @@ impl ContinuumSurvey {
         }
         let frequencies = |row: &BandRow| row.branches.iter().map(|branch| branch.omega).collect();
         let omega: Vec<Vec<f64>> = rows_of_lattice.iter().map(frequencies).collect();
-        let mut warnings = warnings_of(&waves, &rows_of_lattice);
+        let mut warnings = warnings_of(cell, &waves, &rows_of_lattice);
         warnings.extend(warnings_of_model(&continuum, waves.rest().stress.amax(), (model, sinks)));
         let errors = |(exact, own): (&Vec<f64>, &Vec<f64>)| {
             own.iter().zip(exact).map(|(own, exact)| frequency_error(*own, *exact)).collect()

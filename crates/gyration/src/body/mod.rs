@@ -15,6 +15,7 @@ pub use solid::Solid;
 use crate::affine::{AffineBody, Kinetic};
 use crate::contractile::{self, Contraction, Decomposition, Restored};
 use crate::fluid::{History, Inclusion};
+use crate::kinematics::Placement;
 use crate::ledger::{Energy, Work};
 use crate::load::{Couple, LinearResistance, OwnForces};
 use crate::mass::MassProperties;
@@ -268,6 +269,15 @@ impl Body {
         match &self.kind {
             BodyKind::Contractile(contractile) => Some(&contractile.contraction),
             BodyKind::Rigid(_) | BodyKind::Affine(_) => None,
+        }
+    }
+
+    /// The radius of a sphere about its centre in which it lies at a placement [m]; zero without a surface.
+    pub fn radius_at(&self, placement: &Placement) -> f64 {
+        let radius = self.solid.radius().unwrap_or(0.0);
+        match &self.kind {
+            BodyKind::Rigid(_) => radius,
+            BodyKind::Affine(_) | BodyKind::Contractile(_) => placement.stretch_bound() * radius,
         }
     }
 

@@ -14,7 +14,7 @@ use crate::inadmissible::{Inadmissible, Quantity};
 use crate::kinematics::{Placement, Quaternion, Velocity};
 use crate::lattice::{Cell, HERE};
 use crate::model::Model;
-use crate::neighbours::NeighbourList;
+use crate::neighbours::{Extent, NeighbourList};
 use crate::state::{BodyMotion, Turn, contraction_at};
 use crate::tensor::{Mat3, Vec3};
 
@@ -146,7 +146,11 @@ impl Motions {
         self.supports.extend(model.solid_supports.iter().map(|support| support.at(time)));
         let Self { bodies, near, .. } = self;
         let place = |index: usize| bodies[index].motion.placement.position;
-        if let Some((body, value)) = model.images().and_then(|images| images.strayed(place)) {
+        let extent = |index: usize| Extent {
+            place: place(index),
+            radius: model.bodies[index].radius_at(&bodies[index].motion.placement),
+        };
+        if let Some((body, value)) = model.images().and_then(|images| images.strayed(extent)) {
             return Err(Inadmissible { body, quantity: Quantity::Stray, value });
         }
         near.update((model.rules(), model.pairs_with_supports()), model.images(), &model.bodies, place);

@@ -1,8 +1,8 @@
 //! Pairs of bodies across the cells of a lattice: which body meets which image of which.
 //!
 //! They are listed once, by where the bodies of a cell start, as far as they reach when each has come away from there,
-//! beside the first body, by no more than a bound: one that strays farther leaves the model. So nothing is looked for
-//! while a lattice moves, whatever the number of cells, and all of them may drift together.
+//! beside the first body, and has grown, by no more than a bound together: one that strays farther leaves the model. So
+//! nothing is looked for while a lattice moves, whatever the number of cells, and all of them may drift together.
 
 use super::BodyPair;
 use crate::lattice::Cell;
@@ -23,17 +23,26 @@ pub struct ImagePair {
 pub struct ImagePairs {
     /// Ascending.
     all: Arc<[ImagePair]>,
-    /// Where each body starts in its cell [m].
-    starts: Arc<[Vec3]>,
+    /// Where each body starts in its cell, and how far it extends there [m].
+    starts: Arc<[Extent]>,
     /// Whether each meets anybody.
     meets: Arc<[bool]>,
-    /// How far a body may come away from there, beside the first one [m].
+    /// How far a body may come away from there, beside the first one, and grow [m].
     stray: f64,
 }
 
+/// Where a body is, and a sphere about it in which it lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    /// Its centre in its cell [m].
+    pub place: Vec3,
+    /// [m].
+    pub radius: f64,
+}
+
 impl ImagePairs {
-    /// Of bodies that start at these places in their cells [m].
-    pub fn new(mut all: Vec<ImagePair>, starts: Vec<Vec3>, stray: f64) -> Self {
+    /// Of bodies that start like this in their cells.
+    pub fn new(mut all: Vec<ImagePair>, starts: Vec<Extent>, stray: f64) -> Self {
         all.sort_unstable();
         all.dedup();
         let mut meets = vec![false; starts.len()];
@@ -51,11 +60,15 @@ impl ImagePairs {
         self.meets[body]
     }
 
-    /// The first body that has come too far from its start, beside the first of all, and how far [m].
-    pub fn strayed(&self, place: impl Fn(usize) -> Vec3) -> Option<(usize, f64)> {
-        let drift = place(0) - self.starts[0];
-        let distance = |body: usize| (place(body) - self.starts[body] - drift).norm();
-        (1..self.starts.len()).map(|body| (body, distance(body))).find(|(_, distance)| *distance > self.stray)
+    /// The first body that has come too far from its start, beside the first of all, or grown too much, and how far
+    /// [m].
+    pub fn strayed(&self, extent: impl Fn(usize) -> Extent) -> Option<(usize, f64)> {
+        let drift = extent(0).place - self.starts[0].place;
+        let distance = |body: usize| {
+            let (now, start) = (extent(body), &self.starts[body]);
+            (now.place - start.place - drift).norm() + (now.radius - start.radius).max(0.0)
+        };
+        (0..self.starts.len()).map(|body| (body, distance(body))).find(|(_, distance)| *distance > self.stray)
     }
 
     /// Those between some bodies, which ascend, by their places among these.

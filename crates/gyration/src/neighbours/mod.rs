@@ -21,7 +21,7 @@ mod solids;
 mod spheres;
 
 pub use boxes::{Bounds, BoxTree};
-pub use images::{ImagePair, ImagePairs};
+pub use images::{Extent, ImagePair, ImagePairs};
 pub use list::NeighbourList;
 use rules::masses;
 pub use rules::{PairRule, PairRules};

@@ -5,6 +5,7 @@
 
 mod begun;
 mod cut;
+mod endless;
 mod far;
 mod felt;
 mod fluid;
@@ -21,6 +22,7 @@ mod trial;
 mod turning;
 mod untouched;
 
+pub(crate) use endless::warning as endless;
 pub(crate) use fluid::LeftOut;
 pub(crate) use stretched::Stretched;
 
@@ -63,6 +65,7 @@ impl Remarks {
         remarks.warnings.extend(stored::warning(model, start));
         remarks.warnings.extend(reaches::warnings(model, start));
         remarks.warnings.extend(cut::warnings(model, start));
+        remarks.warnings.extend(endless::warning(model, start, rtol));
         remarks.warnings.extend(far::warning(model, start, rtol));
         remarks
     }
