@@ -154,10 +154,10 @@ fn a_start_within_digits_of_its_joints_is_put_on_them() {
 #[test]
 fn a_support_that_turns_round_moves_by_rounding_only() {
     let text = format!(
-        "{TIME}[[support]]\nname = \"hand\"\nplane = {{}}\nmotion = {{ oscillate = {{ direction = [1, 0, 0], amplitude = \
-         0.03, frequency = 2, phase = \"90 deg\" }} }}\n[[body]]\nname = \"bob\"\nshape = {{ sphere = {{ radius = 0.02 }} }}\n\
-         density = 1000\nposition = [0.03, 0, -0.2]\n[[joint]]\nname = \"j\"\nbetween = [\"hand\", \"bob\"]\nkind = \
-         \"ball\"\npoints = [[0, 0, 0], [0, 0, 0.2]]\n"
+        "{TIME}[[support]]\nname = \"hand\"\nplane = {{}}\nmotion = {{ oscillate = {{ direction = [1, 0, 0], amplitude \
+         = 0.03, frequency = 2, phase = \"90 deg\" }} }}\n[[body]]\nname = \"bob\"\nshape = {{ sphere = {{ radius = \
+         0.02 }} }}\ndensity = 1000\nposition = [0.03, 0, -0.2]\n[[joint]]\nname = \"j\"\nbetween = [\"hand\", \
+         \"bob\"]\nkind = \"ball\"\npoints = [[0, 0, 0], [0, 0, 0.2]]\n"
     );
     Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
 }

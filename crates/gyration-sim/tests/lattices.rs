@@ -101,8 +101,8 @@ fn pushed(text: &str) -> Vec<f64> {
 
 #[test]
 fn no_pair_of_a_row_with_free_ends_is_left_out_without_a_reach() {
-    let start = "world = { gravity = [0, 0, 0] }\ntime = { end = 1, sample = 1 }\n[[contact]]\nbetween = [\"g\", \"g\"]\n\
-        repulsion = { alpha = 100, nu = 2.5, d0 = 0.02 }\n";
+    let start = "world = { gravity = [0, 0, 0] }\ntime = { end = 1, sample = 1 }\n[[contact]]\nbetween = [\"g\", \
+        \"g\"]\nrepulsion = { alpha = 100, nu = 2.5, d0 = 0.02 }\n";
     let ball = |name: &str, x: f64| {
         format!(
             "[[body]]\nname = \"{name}\"\ngroup = \"g\"\ndensity = 1000\nposition = [{x}, 0, 0]\n\
@@ -133,8 +133,8 @@ fn images_that_matter_and_are_left_out_are_told() {
     let told = |lattice: &str, nu: f64, contact: &str| {
         let text = format!(
             "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 1, sample = 1 }}\n[lattice]\ncell = [[0.1, 0, 0]]\n\
-             {lattice}\n[[body]]\nname = \"a\"\ndensity = 1000\nshape = {{ sphere = {{ radius = 0.01 }} }}\n[[contact]]\n\
-             between = [\"a\", \"a\"]\nrepulsion = {{ alpha = 100, nu = {nu}, d0 = 0.02 }}\n{contact}\n"
+             {lattice}\n[[body]]\nname = \"a\"\ndensity = 1000\nshape = {{ sphere = {{ radius = 0.01 }} \
+             }}\n[[contact]]\nbetween = [\"a\", \"a\"]\nrepulsion = {{ alpha = 100, nu = {nu}, d0 = 0.02 }}\n{contact}\n"
         );
         let scene = parsed(&text, &[]);
         let built = scene.built();

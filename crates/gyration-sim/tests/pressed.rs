@@ -189,8 +189,8 @@ fn a_soft_body_that_is_only_turned_stays_at_rest_without_alarm() {
             let (summary, steps, rows) = run(
                 &format!(
                     "time = {{ end = 1, sample = 0.1 }}\nworld = {{ gravity = [0, 0, 0] }}\n[[body]]\nname = \"ball\"\n\
-                     shape = {{ sphere = {{ radius = {radius:?} }} }}\ndensity = 1000\naffine = {{ material = {material} }}\n\
-                     orientation = {{ axis_angle = {{ axis = [1, 2, 3], angle = 1 }} }}\n"
+                     shape = {{ sphere = {{ radius = {radius:?} }} }}\ndensity = 1000\naffine = {{ material = \
+                     {material} }}\norientation = {{ axis_angle = {{ axis = [1, 2, 3], angle = 1 }} }}\n"
                 ),
                 &[],
             );

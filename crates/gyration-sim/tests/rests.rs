@@ -49,9 +49,9 @@ fn a_cube_comes_down_on_one_that_it_does_not_yet_feel() {
 fn no_body_falls_through_a_shelf() {
     for z in [1.2, 1.5, 3.0, 10.0] {
         let scene = format!(
-            "time = {{ end = 1, sample = 1 }}\n[[support]]\nname = \"floor\"\nplane = {{}}\n[[support]]\nname = \"shelf\"\n\
-             shape = {{ box = {{ size = [0.4, 0.4, 0.01] }} }}\nposition = [0, 0, 1]\n[[contact]]\nsupport = \"floor\"\n\
-             {}\n[[contact]]\nbetween = [\"cubes\", \"shelf\"]\n{}\n{}",
+            "time = {{ end = 1, sample = 1 }}\n[[support]]\nname = \"floor\"\nplane = {{}}\n[[support]]\nname = \
+             \"shelf\"\nshape = {{ box = {{ size = [0.4, 0.4, 0.01] }} }}\nposition = [0, 0, 1]\n[[contact]]\nsupport \
+             = \"floor\"\n{}\n[[contact]]\nbetween = [\"cubes\", \"shelf\"]\n{}\n{}",
             LAWS.replace("}, ", "}\n"),
             LAWS.replace("}, ", "}\n"),
             cube("a", z)
@@ -68,8 +68,8 @@ fn a_plate_on_a_spring_lifts_what_lies_on_it() {
         let scene = format!(
             "time = {{ end = 1, sample = 1 }}\nworld = {{ gravity = [0, 0, -10] }}\n[[contact]]\nbetween = [\"plate\", \
              \"cube\"]\nrepulsion = {{ alpha = 100, nu = 6, d0 = 0.001 }}\n[[body]]\nname = \"plate\"\ndensity = 1000\n\
-             shape = {{ box = {{ size = [0.5, 0.5, 0.1] }} }}\nspring = [{{ anchor = [0, 0, {anchor}], stiffness = 1e4 }}]\n\
-             {}",
+             shape = {{ box = {{ size = [0.5, 0.5, 0.1] }} }}\nspring = [{{ anchor = [0, 0, {anchor}], stiffness = 1e4 \
+             }}]\n{}",
             cube("cube", 0.15)
         );
         let found = rests(&scene).unwrap();

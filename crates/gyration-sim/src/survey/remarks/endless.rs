@@ -25,8 +25,8 @@ pub(crate) fn warning(model: &Model, start: &State, rtol: f64) -> Option<String>
     let most = libm::pow(slab.gap / range, slowest(&pair.form.laws) - 1.0);
     (most > rtol).then(|| {
         format!(
-            "contacts between bodies have no `reach`, and images of the lattice farther than {} m are left out: they may \
-             push with about {} of the nearest; give the contacts a `reach`, within which every image counts",
+            "contacts between bodies have no `reach`, and images of the lattice farther than {} m are left out: they \
+             may push with about {} of the nearest; give the contacts a `reach`, within which every image counts",
             significant(range, 3),
             significant(most, 1)
         )
