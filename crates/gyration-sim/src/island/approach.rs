@@ -41,6 +41,11 @@ impl Approach {
         self.straight(time) - 0.5 * self.acceleration * time * time
     }
 
+    /// The same by the least distance without acceleration, which is that at the time `nearest` [m].
+    pub fn bound(&self, nearest: f64, time: f64) -> f64 {
+        self.straight(nearest) - 0.5 * self.acceleration * time * time
+    }
+
     /// When they are nearest within a time, without acceleration [s].
     pub fn nearest(&self, within: f64) -> f64 {
         let square = self.velocity.norm_squared();
@@ -54,7 +59,7 @@ impl Approach {
 
     /// A bound on the smallest distance within a time [m].
     pub fn least(&self, within: f64) -> f64 {
-        self.straight(self.nearest(within)) - 0.5 * self.acceleration * within * within
+        self.bound(self.nearest(within), within)
     }
 }
 

@@ -125,17 +125,22 @@ impl<'a> PairApproach<'a> {
     }
 
     /// The time for which the spheres around the two stay apart [s], at most a part more than `longest`.
+    ///
+    /// Behind the time at which they are nearest it is doubled while they are apart, whatever `longest` is.
     fn clear(&self, halves: &[PlaneApproach; 2], longest: f64) -> f64 {
         let within = longest / PART;
-        let apart = |t: f64| {
-            let radii: f64 = halves.iter().map(|half| half.radius + t * half.growth).sum();
-            self.centers.distance(t) - radii
-        };
+        let radii = |t: f64| halves.iter().map(|half| half.radius + t * half.growth).sum::<f64>();
+        let apart = |t: f64| self.centers.distance(t) - radii(t);
         let nearest = self.centers.nearest(within);
         if apart(nearest) <= 0.0 {
             return first_root(nearest, apart);
         }
-        if apart(within) > 0.0 { within } else { nearest }
+        let bent = first_root(within, |t| self.centers.bound(nearest, t) - radii(t));
+        let mut clear = bent.max(nearest);
+        while clear < within && clear > 0.0 && apart(2.0 * clear) > 0.0 {
+            clear *= 2.0;
+        }
+        clear.min(within)
     }
 }
 

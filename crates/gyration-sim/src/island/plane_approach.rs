@@ -97,11 +97,12 @@ impl<'a> PlaneApproach<'a> {
 
     /// The longest step [s] that this approach allows, at most `longest`.
     pub fn time(&self, longest: f64) -> f64 {
-        let clear = PART * first_root(longest, |t| self.sphere_gap(t));
+        let within = longest / PART;
+        let clear = PART * first_root(within, |t| self.sphere_gap(t));
         if clear >= longest {
             return longest;
         }
-        let straight = PART * first_root(longest / PART, |t| self.smallest_gap(t));
+        let straight = PART * first_root(within, |t| self.smallest_gap(t));
         clear.max(straight.min(TURN / self.spin)).min(longest)
     }
 
@@ -119,17 +120,20 @@ impl<'a> PlaneApproach<'a> {
 }
 
 /// A time just before the root in (0, longest] of a concave function; `longest` if there is none, 0 if it starts below.
+///
+/// Binary fractions of a second alone are tried, so that a root within two longest times is the same number: how long
+/// a run goes on must leave no trace in its steps.
 pub(crate) fn first_root(longest: f64, function: impl Fn(f64) -> f64) -> f64 {
-    let (mut left, mut right) = (0.0, longest);
     if function(0.0) <= 0.0 {
         return 0.0;
     }
     if function(longest) > 0.0 {
         return longest;
     }
+    let (mut left, mut right) = (0.0, power_of_two_above(longest));
     while right - left > PRECISION * right {
         let middle = 0.5 * (left + right);
-        if function(middle) > 0.0 {
+        if middle < longest && function(middle) > 0.0 {
             left = middle
         } else {
             right = middle
@@ -139,6 +143,12 @@ pub(crate) fn first_root(longest: f64, function: impl Fn(f64) -> f64) -> f64 {
         }
     }
     left
+}
+
+/// The next power of two that is not below a positive time.
+fn power_of_two_above(time: f64) -> f64 {
+    let (mantissa, exponent) = libm::frexp(time);
+    libm::ldexp(1.0, if mantissa == 0.5 { exponent - 1 } else { exponent })
 }
 
 #[cfg(test)]
@@ -153,5 +163,12 @@ mod tests {
         }
         assert_eq!(first_root(1.0, |t| 2.0 - t), 1.0);
         assert_eq!(first_root(1.0, |_| -1.0), 0.0);
+    }
+
+    #[test]
+    fn a_root_does_not_depend_on_how_far_it_is_looked_for() {
+        for longest in [0.31, 0.5, 0.7, 1.0, 3.0, 1e9] {
+            assert_eq!(first_root(longest, |t| 0.3 - t), first_root(0.3, |t| 0.3 - t));
+        }
     }
 }
