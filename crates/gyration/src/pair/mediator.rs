@@ -14,9 +14,12 @@
 //!
 //!   Σ_l ⟨B_k, B_l⟩ η_l = ⟨B_k, ΠV⟩,   (f | M) = −W M,   W = ΠV − Σ η_k B_k,   power = −⟨W, W⟩
 //!
+//! Of all these matrices the rows alone are computed along the directions of Π: n, or t₁ and t₂ ([`Rows`]).
+//!
 //! Coulomb's bound scales all of a friction by σ, with 2R = ⟨W, W⟩ and B = B_A B_B/(B_A + B_B), B_i = ∫κ_i dA: both
 //! sides alike, so that the mediator stays as it is (`contact/bound`).
 
+use super::directions::{Directions, NOTHING, Rows, UNIFORM};
 use super::fault::PairFault;
 use super::laws::{PairLaws, ViscousLaw, raised};
 use super::opening::Opening;
@@ -24,13 +27,9 @@ use super::placed::Placed;
 use super::side::{Half, joined};
 use super::{Mat4, Mat34, Vec4};
 use crate::contact::{Bound, LawKind, OneSided, Sliding};
-use crate::load::Mat12;
 use crate::surface::Moments;
-use crate::tensor::{Mat3, Vec3, cross_matrix};
-use nalgebra::{Cholesky, Const, SMatrix, SVector};
-
-type Vec12 = SVector<f64, 12>;
-type Mat12x3 = SMatrix<f64, 12, 3>;
+use crate::tensor::{Mat3, Vec3};
+use nalgebra::{Cholesky, Const};
 
 /// How the powers d^−ν′ of two sides are weighed.
 #[derive(Debug, Clone, Copy)]
@@ -47,14 +46,17 @@ pub(super) struct Shares {
 #[derive(Debug, Clone)]
 pub(super) struct Mediator {
     pub kind: LawKind,
+    pub directions: Directions,
     /// M.
     pub moments: [Mat4; 2],
     /// B.
-    pub fields: [[Mat34; 3]; 2],
+    pub fields: [[Rows; 3]; 2],
     /// B M.
-    pub pressed: [[Mat34; 3]; 2],
+    pub pressed: [[Rows; 3]; 2],
     /// W.
-    pub slips: [Mat34; 2],
+    pub slips: [Rows; 2],
+    /// W M.
+    pub resisted: [Rows; 2],
     /// η.
     pub motion: Vec3,
     pub system: Cholesky<f64, Const<3>>,
@@ -121,64 +123,38 @@ pub(super) fn upright(v: &Vec3) -> Vec4 {
     Vec4::new(0.0, v.x, v.y, v.z)
 }
 
-/// n⊗n or 1 − n⊗n.
-pub(super) fn projector(kind: LawKind, n: &Vec3) -> Mat3 {
-    let along = n * n.transpose();
-    if kind == LawKind::Damping { along } else { Mat3::identity() - along }
-}
-
 /// B of a side.
-fn fields(kind: LawKind, placed: &Placed, from_foot: &Mat34) -> [Mat34; 3] {
+fn fields(kind: LawKind, placed: &Placed, from_foot: &Mat34) -> [Rows; 3] {
     let (n, [one, other]) = (&placed.plane.normal, &placed.tangents);
     if kind == LawKind::Damping {
-        let tilt = |tangent: &Vec3| n * from_foot.tr_mul(tangent).transpose();
-        [uniform(n), tilt(one), tilt(other)]
+        [[UNIFORM, NOTHING], [from_foot.tr_mul(one), NOTHING], [from_foot.tr_mul(other), NOTHING]]
     } else {
-        [uniform(one), uniform(other), cross_matrix(n) * from_foot]
+        // t·(n × x) = (t × n)·x.
+        let spin = [one, other].map(|tangent| from_foot.tr_mul(&tangent.cross(n)));
+        [[UNIFORM, NOTHING], [NOTHING, UNIFORM], spin]
     }
-}
-
-/// The field that is v everywhere.
-pub(super) fn uniform(v: &Vec3) -> Mat34 {
-    let mut uniform = Mat34::zeros();
-    uniform.set_column(0, v);
-    uniform
 }
 
 /// Σ η_k B_k.
-pub(super) fn combined(motion: &Vec3, fields: &[Mat34; 3]) -> Mat34 {
-    motion.x * fields[0] + motion.y * fields[1] + motion.z * fields[2]
-}
-
-/// B_k · A of each k.
-pub(super) fn along(fields: &[Mat34; 3], weighed: &Mat34) -> Vec3 {
-    Vec3::from_fn(|k, _| fields[k].dot(weighed))
-}
-
-/// Adds a factor times Q_i ⊗ Q_j.
-fn add_product(factor: f64, loads: [Mat34; 2], slopes: &mut [[Mat12; 2]; 2]) {
-    let loads = loads.map(|loads| Vec12::from_column_slice(loads.as_slice()));
-    for (side, acting) in loads.iter().enumerate() {
-        for (body, moved) in loads.iter().enumerate() {
-            slopes[side][body].ger(factor, acting, moved, 1.0);
-        }
-    }
+fn combined(motion: &Vec3, fields: &[Rows; 3]) -> Rows {
+    [0, 1].map(|k| motion.x * fields[0][k] + motion.y * fields[1][k] + motion.z * fields[2][k])
 }
 
 /// η and W of a motion ΠV.
-pub(super) fn slipped(
+fn slipped(
+    directions: &Directions,
     system: &Cholesky<f64, Const<3>>,
-    pressed: &[[Mat34; 3]; 2],
-    fields: &[[Mat34; 3]; 2],
-    mut moved: [Mat34; 2],
-) -> (Vec3, [Mat34; 2]) {
+    (pressed, fields): (&[[Rows; 3]; 2], &[[Rows; 3]; 2]),
+    mut moved: [Rows; 2],
+) -> (Vec3, [Rows; 2]) {
     let mut right = Vec3::zeros();
-    for side in 0..2 {
-        right += along(&pressed[side], &moved[side]);
+    for (pressed, moved) in pressed.iter().zip(&moved) {
+        right += Vec3::from_fn(|k, _| directions.product(&pressed[k], moved));
     }
     let motion = system.solve(&right);
     for (slip, fields) in moved.iter_mut().zip(fields) {
-        *slip -= combined(&motion, fields);
+        let carried = combined(&motion, fields);
+        slip.iter_mut().zip(&carried).for_each(|(slip, carried)| *slip -= carried);
     }
     (motion, moved)
 }
@@ -213,26 +189,29 @@ impl Mediator {
         moments: [&Moments; 2],
     ) -> Result<Self, PairFault> {
         let kind = law.kind;
+        let directions = Directions::of(kind, placed);
         let feet = (kind == LawKind::Friction).then(|| halves.map(|half| Foot::new(half, placed)));
         let moments = [0, 1].map(|side| weighed(shares.coefficient(law, side), feet.as_ref(), side, moments[side]));
         let fields = halves.map(|half| fields(kind, placed, &from_foot(half, foot)));
-        let projector = projector(kind, &placed.plane.normal);
-        let moved = halves.map(|half| projector * half.rates());
-        let pressed = [0, 1].map(|side| fields[side].map(|field| field * moments[side]));
+        let moved = halves.map(|half| directions.rows(&half.rates()));
+        let pressed = [0, 1].map(|side| fields[side].map(|field| directions.times(&field, &moments[side])));
         let mut matrix = Mat3::zeros();
-        for side in 0..2 {
+        for (pressed, fields) in pressed.iter().zip(&fields) {
+            // What a Cholesky factorization reads.
             for k in 0..3 {
-                for l in 0..3 {
-                    matrix[(k, l)] += pressed[side][k].dot(&fields[side][l]);
+                for l in 0..=k {
+                    matrix[(k, l)] += directions.product(&pressed[k], &fields[l]);
                 }
             }
         }
         let system = matrix.cholesky().ok_or(PairFault::Singular(law.kind))?;
-        let (motion, slips) = slipped(&system, &pressed, &fields, moved);
+        let (motion, slips) = slipped(&directions, &system, (&pressed, &fields), moved);
+        let resisted = [0, 1].map(|side| directions.times(&slips[side], &moments[side]));
         let (bound, opening) = (None, None);
-        let mut found = Self { kind, moments, fields, pressed, slips, motion, system, feet, bound, opening };
+        let mut found =
+            Self { kind, directions, moments, fields, pressed, slips, resisted, motion, system, feet, bound, opening };
         if let Some(release) = law.release {
-            found.open(OneSided(release), &placed.plane.normal);
+            found.open(OneSided(release));
         }
         found.bound = law.mu.map(|mu| {
             let resistance = in_series(found.resistances());
@@ -242,28 +221,25 @@ impl Mediator {
     }
 
     /// Makes it that of a one-sided damping.
-    pub(super) fn open(&mut self, one_sided: OneSided, normal: &Vec3) {
-        let moved = [uniform(normal), Mat34::zeros()];
-        let (motion, slips) = slipped(&self.system, &self.pressed, &self.fields, moved);
-        let product = |other: &[Mat34; 2]| -> f64 {
-            (0..2).map(|side| (slips[side] * self.moments[side]).dot(&other[side])).sum()
-        };
+    fn open(&mut self, one_sided: OneSided) {
+        let Self { directions, moments, .. } = self;
+        let moved = [[UNIFORM, NOTHING], [NOTHING; 2]];
+        let (motion, slips) = slipped(directions, &self.system, (&self.pressed, &self.fields), moved);
+        let resisted = [0, 1].map(|side| directions.times(&slips[side], &moments[side]));
+        let product =
+            |other: &[Rows; 2]| -> f64 { (0..2).map(|side| directions.product(&resisted[side], &other[side])).sum() };
         let resistance = product(&slips);
         if resistance <= 0.0 {
             return;
         }
         let speed = product(&self.slips) / resistance;
         let shift = one_sided.shift(speed);
-        for (slip, opening) in self.slips.iter_mut().zip(&slips) {
-            *slip += shift.by * opening;
+        for side in 0..2 {
+            self.slips[side][0] += shift.by * slips[side][0];
+            self.resisted[side][0] += shift.by * resisted[side][0];
         }
         self.motion += shift.by * motion;
-        self.opening = Some(Opening { shift, speed, resistance, slips, motion });
-    }
-
-    /// Q_E on a side.
-    pub(super) fn opening_loads(&self, opening: &Opening, side: usize) -> Mat34 {
-        -(opening.slips[side] * self.moments[side])
+        self.opening = Some(Opening { shift, speed, resistance, slips, resisted, motion });
     }
 
     /// (f | M) on a side.
@@ -274,13 +250,14 @@ impl Mediator {
 
     /// (f | M) on a part of a side, given κ d^ν′ and the moments of d^−ν′ over it.
     pub fn on_part(&self, side: usize, coefficient: f64, moments: &Moments) -> Mat34 {
-        let viscous = -(self.slips[side] * weighed(coefficient, self.feet.as_ref(), side, moments));
+        let moments = weighed(coefficient, self.feet.as_ref(), side, moments);
+        let viscous = -self.directions.matrix(&self.directions.times(&self.slips[side], &moments));
         self.bound.as_ref().map_or(viscous, |bound| bound.factor() * viscous)
     }
 
-    /// The same without a bound.
+    /// The same of the whole side, without a bound.
     pub(super) fn viscous(&self, side: usize) -> Mat34 {
-        -(self.slips[side] * self.moments[side])
+        -self.directions.matrix(&self.resisted[side])
     }
 
     /// What it takes from both [W], negative.
@@ -291,39 +268,12 @@ impl Mediator {
 
     /// The same without a bound.
     fn viscous_power(&self) -> f64 {
-        let taken: f64 = (0..2).map(|side| (self.slips[side] * self.moments[side]).dot(&self.slips[side])).sum();
+        let taken: f64 = (0..2).map(|side| self.directions.product(&self.resisted[side], &self.slips[side])).sum();
         self.opening.as_ref().map_or(-taken, |opening| opening.power(taken))
     }
 
     /// B of both sides.
     pub(super) fn resistances(&self) -> [f64; 2] {
         self.moments.each_ref().map(|moments| moments[(0, 0)])
-    }
-
-    /// Adds the derivatives of (f | M) on each side by the motion of each, places kept.
-    ///
-    ///   ∂(f | M)_i/∂V_j = G_i S⁻¹ G_jᵀ − δ_ij M_i⊗Π,   G_i = (B_1M_i, B_2M_i, B_3M_i),   S_kl = Σ ⟨B_k, B_l⟩
-    ///
-    /// G is 12×3; the B_k lie in the image of Π. A bound takes σ of that, and σ g Q_i ⊗ Q_j beside, Q = (f | M) without
-    /// it; one-sided damping has −(s′ − 1)/K Q_i ⊗ Q_j beside, Q = (f | M) of E.
-    pub fn add_by_rates(&self, normal: &Vec3, slopes: &mut [[Mat12; 2]; 2]) {
-        let projector = projector(self.kind, normal);
-        let factor = self.bound.as_ref().map_or(1.0, Bound::factor);
-        let pressed = self.pressed.each_ref().map(|pressed| {
-            Mat12x3::from_columns(&pressed.each_ref().map(|pressed| Vec12::from_column_slice(pressed.as_slice())))
-        });
-        for (body, pressed_by) in pressed.iter().enumerate() {
-            let motion = factor * self.system.solve(&pressed_by.transpose());
-            for (side, pressed) in pressed.iter().enumerate() {
-                slopes[side][body] += pressed * motion;
-            }
-            slopes[body][body] -= (factor * self.moments[body]).kronecker(&projector);
-        }
-        if let Some(bound) = &self.bound {
-            add_product(bound.by_motion(), [0, 1].map(|side| self.viscous(side)), slopes);
-        }
-        if let Some(opening) = &self.opening {
-            add_product(opening.by_motion(), [0, 1].map(|side| self.opening_loads(opening, side)), slopes);
-        }
     }
 }

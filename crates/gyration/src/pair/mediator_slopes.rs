@@ -14,14 +14,34 @@
 use super::areas::AreaMoments;
 use super::expansion::Change;
 use super::laws::ViscousLaw;
-use super::mediator::{Mediator, Shares, along, combined, from_foot, uniform, upright};
+use super::mediator::{Mediator, Shares, from_foot, upright};
 use super::opening::{Opening, SideChange};
 use super::side::{contracted, joined};
 use super::state::PairState;
 use super::{Mat4, Mat34, Vec4};
-use crate::contact::{LawKind, Sliding};
+use crate::contact::{Bound, LawKind, Sliding};
+use crate::load::Mat12;
 use crate::surface::Moments;
-use crate::tensor::{Vec3, cross_matrix};
+use crate::tensor::{Mat3, Vec3, cross_matrix};
+use nalgebra::{SMatrix, SVector};
+
+type Vec12 = SVector<f64, 12>;
+type Mat12x3 = SMatrix<f64, 12, 3>;
+
+/// A mediator with its matrices whole: their changes leave the image of Π.
+pub(super) struct Unfolded<'a> {
+    of: &'a Mediator,
+    /// B.
+    fields: [[Mat34; 3]; 2],
+    /// B M.
+    pressed: [[Mat34; 3]; 2],
+    /// W.
+    slips: [Mat34; 2],
+    /// −W M.
+    viscous: [Mat34; 2],
+    /// W_E and −W_E M of a damping that is one-sided.
+    opening: Option<([Mat34; 2], [Mat34; 2])>,
+}
 
 /// A side of a mediator on its way from d^−ν′, whatever changes.
 pub(super) struct Slope {
@@ -76,7 +96,83 @@ impl Slope {
     }
 }
 
-impl Mediator {
+/// The field that is v everywhere.
+fn uniform(v: &Vec3) -> Mat34 {
+    let mut uniform = Mat34::zeros();
+    uniform.set_column(0, v);
+    uniform
+}
+
+/// Σ η_k B_k.
+fn combined(motion: &Vec3, fields: &[Mat34; 3]) -> Mat34 {
+    motion.x * fields[0] + motion.y * fields[1] + motion.z * fields[2]
+}
+
+/// B_k · A of each k.
+fn along(fields: &[Mat34; 3], weighed: &Mat34) -> Vec3 {
+    Vec3::from_fn(|k, _| fields[k].dot(weighed))
+}
+
+/// n⊗n or 1 − n⊗n.
+fn projector(kind: LawKind, n: &Vec3) -> Mat3 {
+    let along = n * n.transpose();
+    if kind == LawKind::Damping { along } else { Mat3::identity() - along }
+}
+
+/// Adds a factor times Q_i ⊗ Q_j.
+fn add_product(factor: f64, loads: &[Mat34; 2], slopes: &mut [[Mat12; 2]; 2]) {
+    let loads = loads.each_ref().map(|loads| Vec12::from_column_slice(loads.as_slice()));
+    for (side, acting) in loads.iter().enumerate() {
+        for (body, moved) in loads.iter().enumerate() {
+            slopes[side][body].ger(factor, acting, moved, 1.0);
+        }
+    }
+}
+
+impl<'a> Unfolded<'a> {
+    pub fn new(of: &'a Mediator) -> Self {
+        let whole = |rows: &_| of.directions.matrix(rows);
+        let opening = of.opening.as_ref().map(|opening| {
+            (opening.slips.each_ref().map(whole), opening.resisted.each_ref().map(|rows| -of.directions.matrix(rows)))
+        });
+        Self {
+            of,
+            fields: of.fields.each_ref().map(|fields| fields.each_ref().map(whole)),
+            pressed: of.pressed.each_ref().map(|pressed| pressed.each_ref().map(whole)),
+            slips: of.slips.each_ref().map(whole),
+            viscous: [0, 1].map(|side| of.viscous(side)),
+            opening,
+        }
+    }
+
+    /// Adds the derivatives of (f | M) on each side by the motion of each, places kept.
+    ///
+    ///   ∂(f | M)_i/∂V_j = G_i S⁻¹ G_jᵀ − δ_ij M_i⊗Π,   G_i = (B_1M_i, B_2M_i, B_3M_i),   S_kl = Σ ⟨B_k, B_l⟩
+    ///
+    /// G is 12×3; the B_k lie in the image of Π. A bound takes σ of that, and σ g Q_i ⊗ Q_j beside, Q = (f | M) without
+    /// it; one-sided damping has −(s′ − 1)/K Q_i ⊗ Q_j beside, Q = (f | M) of E.
+    pub fn add_by_rates(&self, normal: &Vec3, slopes: &mut [[Mat12; 2]; 2]) {
+        let Mediator { kind, moments, system, bound, opening, .. } = self.of;
+        let projector = projector(*kind, normal);
+        let factor = bound.as_ref().map_or(1.0, Bound::factor);
+        let pressed = self.pressed.each_ref().map(|pressed| {
+            Mat12x3::from_columns(&pressed.each_ref().map(|pressed| Vec12::from_column_slice(pressed.as_slice())))
+        });
+        for (body, pressed_by) in pressed.iter().enumerate() {
+            let motion = factor * system.solve(&pressed_by.transpose());
+            for (side, pressed) in pressed.iter().enumerate() {
+                slopes[side][body] += pressed * motion;
+            }
+            slopes[body][body] -= (factor * moments[body]).kronecker(&projector);
+        }
+        if let Some(bound) = bound {
+            add_product(bound.by_motion(), &self.viscous, slopes);
+        }
+        if let (Some(opening), Some((_, loads))) = (opening, &self.opening) {
+            add_product(opening.by_motion(), loads, slopes);
+        }
+    }
+
     /// The change of (f | M) on both sides with the places of both, (δq_A, δq_B), motions kept.
     pub fn along_places(
         &self,
@@ -85,16 +181,17 @@ impl Mediator {
         places: [&Mat34; 2],
         change: &Change,
     ) -> [Mat34; 2] {
+        let Mediator { kind, motion, moments: weights, system, bound, opening, .. } = self.of;
         let (mut right, mut lost, mut resistances, mut mean) = (Vec3::zeros(), 0.0, [0.0; 2], 0.0);
         let changed = [0, 1].map(|side| {
             let moments = self.moments_along(state, side, &slopes[side], places[side], change);
             let fields = self.fields_along(state, &slopes[side], places[side], change);
             let Slope { rates, rising, .. } = &slopes[side];
-            let sign = if self.kind == LawKind::Damping { 1.0 } else { -1.0 };
+            let sign = if *kind == LawKind::Damping { 1.0 } else { -1.0 };
             let turned = change.normal * rising.transpose()
                 + state.placed.plane.normal * rates.tr_mul(&change.normal).transpose();
-            let mut slip = sign * turned - combined(&self.motion, &fields);
-            if let Some(opening) = &self.opening {
+            let mut slip = sign * turned - combined(motion, &fields);
+            if let Some(opening) = opening {
                 let mut tilted = -combined(opening.motion(), &fields);
                 if side == 0 {
                     slip += opening.by() * uniform(&change.normal);
@@ -103,33 +200,33 @@ impl Mediator {
                 let change = SideChange { side, slip: &slip, tilted: &tilted, moments: &moments };
                 mean += self.mean_along(opening, &change);
             }
-            let slipped = slip * self.moments[side];
+            let slipped = slip * weights[side];
             let changed = self.slips[side] * moments + slipped;
-            right += along(&self.fields[side], &changed) - along(&fields, &self.viscous(side));
-            if self.bound.is_some() {
+            right += along(&self.fields[side], &changed) - along(&fields, &self.viscous[side]);
+            if bound.is_some() {
                 lost += (changed + slipped).dot(&self.slips[side]);
                 resistances[side] = moments[(0, 0)];
             }
             changed
         });
-        let motion = self.system.solve(&right);
+        let motion = system.solve(&right);
         let viscous = [0, 1].map(|side| combined(&motion, &self.pressed[side]) - changed[side]);
-        if let Some(opening) = &self.opening {
+        if let Some(opening) = opening {
             return [0, 1].map(|side| viscous[side] + self.opened(opening, side, mean));
         }
-        let Some(bound) = &self.bound else { return viscous };
-        let own = self.resistances();
+        let Some(bound) = bound else { return viscous };
+        let own = self.of.resistances();
         let resistance = (0..2).map(|side| resistances[side] * (own[1 - side] / (own[0] + own[1])).powi(2)).sum();
         let push = state.placed.push() * change.weights[0] + state.placed.weights[0] * change.first[0][0];
         let growth = bound.change(&Sliding { lost, resistance, push });
-        [0, 1].map(|side| bound.factor() * viscous[side] + growth * self.viscous(side))
+        [0, 1].map(|side| bound.factor() * viscous[side] + growth * self.viscous[side])
     }
 
     /// δB of a side.
     fn fields_along(&self, state: &PairState, slope: &Slope, place: &Mat34, change: &Change) -> [Mat34; 3] {
         let (normal, tangents) = (&state.placed.plane.normal, &state.placed.tangents);
         let turns = tangents.map(|tangent| tangent.dot(&change.normal));
-        if self.kind == LawKind::Damping {
+        if self.of.kind == LawKind::Damping {
             let tilt = |k: usize| {
                 let arm = place.tr_mul(&tangents[k]) - turns[k] * slope.arms[2];
                 change.normal * slope.arms[k].transpose() + normal * arm.transpose()
@@ -149,7 +246,7 @@ impl Mediator {
         if let (Some(areas), Some(stretch)) = (&slope.areas, &change.stretch[side]) {
             areas.iter().zip(stretch).for_each(|(own, weight)| changed += *weight * own);
         }
-        let Some(feet) = &self.feet else { return changed };
+        let Some(feet) = &self.of.feet else { return changed };
         let (foot, half) = (&feet[side], &state.halves[side]);
         let across = foot.across.fixed_rows::<3>(1);
         let turned = half.side.inverse * (change.normal - place.fixed_columns::<3>(1) * across);
@@ -159,19 +256,21 @@ impl Mediator {
     }
 }
 
-impl Mediator {
+impl Unfolded<'_> {
     /// What the change of one side adds to K δw; the slips that change being those of the mediator, (s − w) δK is in
     /// it.
-    pub(super) fn mean_along(&self, opening: &Opening, change: &SideChange) -> f64 {
+    fn mean_along(&self, opening: &Opening, change: &SideChange) -> f64 {
         let SideChange { side, slip, tilted, moments } = change;
-        let (own, weight) = (&opening.slips[*side], &self.moments[*side]);
+        let Some((slips, _)) = &self.opening else { return 0.0 };
+        let (own, weight) = (&slips[*side], &self.of.moments[*side]);
         let (swept, pressed, turned) = (own * *moments, own * weight, *tilted * weight);
         let product = turned.dot(&self.slips[*side]) + pressed.dot(slip) + swept.dot(&self.slips[*side]);
         product - (opening.speed + opening.shift.by) * (2.0 * turned.dot(own) + swept.dot(own))
     }
 
     /// (s′ − 1) Q_E δw on a side, given K δw.
-    pub(super) fn opened(&self, opening: &Opening, side: usize, mean: f64) -> Mat34 {
-        opening.shift.slope * mean / opening.resistance * self.opening_loads(opening, side)
+    fn opened(&self, opening: &Opening, side: usize, mean: f64) -> Mat34 {
+        let factor = opening.shift.slope * mean / opening.resistance;
+        self.opening.as_ref().map_or_else(Mat34::zeros, |(_, loads)| factor * loads[side])
     }
 }

@@ -34,6 +34,7 @@
 //! | `state`       | a pair whose plane is found, and what both ends have of it       |
 //! | `pulled`      | adhesion at the plane that something else places                |
 //! | `pulled_slopes` | how this changes with the places of both                      |
+//! | `directions`  | the one or two directions of damping and friction               |
 //! | `mediator`    | damping and friction against the velocities of the plane        |
 //! | `mediator_slopes` | how these change with the places of both                    |
 //! | `areas`       | how moments change with the area factors of bodies that deform  |
@@ -46,6 +47,7 @@
 mod areas;
 mod balls;
 mod deepest;
+mod directions;
 mod equilibrium;
 mod exchange;
 mod expansion;

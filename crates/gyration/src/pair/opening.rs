@@ -9,6 +9,7 @@
 //!   δw = (δ⟨W_E, W⟩ − w δK)/K
 
 use super::Mat34;
+use super::directions::Rows;
 use crate::contact::Shift;
 use crate::tensor::Vec3;
 
@@ -21,7 +22,9 @@ pub(super) struct Opening {
     /// K [N s/m].
     pub resistance: f64,
     /// W_E.
-    pub slips: [Mat34; 2],
+    pub slips: [Rows; 2],
+    /// W_E M.
+    pub resisted: [Rows; 2],
     /// η of E.
     pub motion: Vec3,
 }

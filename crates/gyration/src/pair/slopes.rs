@@ -8,7 +8,7 @@ use super::exchange::PairSlopes;
 use super::expansion::Change;
 use super::fault::PairFault;
 use super::form::PairForm;
-use super::mediator_slopes::Slope;
+use super::mediator_slopes::{Slope, Unfolded};
 use super::plane::Guess;
 use super::pulled_slopes::PulledSlopes;
 use super::side::Side;
@@ -85,6 +85,7 @@ impl PairSlopes {
             on[0] += mediator.loads(0);
             on[1] += mediator.loads(1);
             let bent = [0, 1].map(|side| Slope::new(law, shares, (&state, &areas), side, moments[side]));
+            let mediator = Unfolded::new(mediator);
             for Column { direction, change, sum } in columns.iter_mut().flatten() {
                 let change = mediator.along_places(&state, &bent, direction.places().each_ref(), change);
                 sum.iter_mut().zip(&change).for_each(|(sum, change)| *sum += change);
