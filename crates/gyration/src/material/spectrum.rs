@@ -30,14 +30,17 @@ impl Spectrum {
     }
 }
 
-/// N of a symmetric matrix.
+/// Values that differ by less than this part of them are equal: some roundings of their sum and of its third.
+const EQUAL: f64 = 8.0 * f64::EPSILON;
+
+/// N of a positive matrix.
 #[inline(always)]
 fn principal_axes(c: &SimdMat3) -> SimdMat3 {
     let mean = c.trace() * (1.0 / 3.0);
     let deviator = *c - SimdMat3(UNIT) * mean;
     let size = (deviator.dot(&deviator) * (1.0 / 6.0)).sqrt();
-    // Equal values, or not numbers: all axes are principal.
-    if !(size > 0.0 && size.is_finite()) {
+    // Values that are equal to rounding, which leaves the deviator a trace, or no numbers: all axes are principal.
+    if !(size > EQUAL * mean && size.is_finite()) {
         return SimdMat3(UNIT);
     }
     let unit = deviator * (1.0 / size);
@@ -166,6 +169,20 @@ mod tests {
         println!("orthogonality {:e}, C = N diag(c) Nᵀ {:e}, values {:e}", worst[0], worst[1], worst[2]);
         // Some ten roundings of numbers of order one.
         assert!(worst.iter().all(|error| *error < 1e-14), "{worst:?}");
+    }
+
+    /// Symptom: where rounding left (c + δ, c + δ, c) with a mean of c, two principal values of a deviator without
+    /// trace would have to be √3, and no axis was found.
+    #[test]
+    fn values_that_are_equal_to_rounding_have_axes() {
+        for step in 0..20_000 {
+            let turn = 1e-3 * f64::from(step);
+            let p = gradient([0.5; 3], turn);
+            let Spectrum { values, axes, .. } = Spectrum::of(&SimdMat3::of(&p));
+            let n = axes.matrix();
+            assert!(values.iter().all(|value| (value - 0.25).abs() < 1e-15), "{turn}: {values:?}");
+            assert!((n.tr_mul(&n) - Mat3::identity()).norm() < 1e-14, "{turn}");
+        }
     }
 
     #[test]

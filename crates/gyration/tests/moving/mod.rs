@@ -279,6 +279,7 @@ pub fn assert_jacobian_is_the_derivative(model: &Model, state: &State) {
     let mut blocks: Vec<_> = dimensions.map(|dimension| DMatrix::zeros(dimension, dimension)).collect();
     jacobian(model, &mut Workspace::default(), state.time, state.numbers(), &mut blocks[..]).unwrap();
     for (body, (block, range)) in blocks.iter().zip(model.blocks()).enumerate() {
+        assert!(block.iter().all(|entry| entry.is_finite()), "body {body}: {block}");
         for column in range.clone() {
             let step = 1e-5;
             let shifted = |sign: f64| {
