@@ -54,7 +54,7 @@ fn write_orbit(text: &mut String, found: &OrbitSurvey) -> std::fmt::Result {
         writeln!(text, "moves on    by ({a}, {b}, {c}) cells in that time")?;
     }
     writeln!(text, "energy      {} J", significant(found.energy, 8))?;
-    writeln!(text, "comes back  to {:.1e} of the scales of its start", found.misfit)?;
+    writeln!(text, "comes back  to {:.1e} of how far it goes", found.misfit)?;
     let verdict = if found.stable { "stable: no neighbour leaves it" } else { "unstable: neighbours leave it" };
     writeln!(text, "{verdict}")?;
     writeln!(text, "\nmultipliers    |μ|           angle [rad]")?;

@@ -33,10 +33,17 @@ use multipliers::eigenvalues;
 use nalgebra::{Complex, ComplexField as _, DMatrix, DVector};
 use std::cmp::Ordering;
 
-/// The tolerance of its runs, if that of the scene is not smaller.
-const RTOL: f64 = 1e-12;
-/// Misfits, in scales, below which an orbit is found.
+/// The tolerance of its runs, if that of the scene is not smaller; of a motion that goes less far than its bodies are
+/// long it is that part of it, but no less than the second.
+const RTOL: [f64; 2] = [1e-12, 1e-15];
+/// Misfits, as parts of how far a motion goes, below which an orbit is found.
 const FOUND: f64 = 1e-9;
+/// A motion that goes less far is rest, in scales.
+const REST: f64 = 1e-14;
+/// Rates that differ by less than this part of the largest along an orbit are the same.
+const SAME: f64 = 1e-6;
+/// After so many periods what drives a scene is compared with what it was.
+const REPETITIONS: usize = 3;
 /// So many steps are tried, and each is halved so often.
 const MOST_STEPS: usize = 40;
 const MOST_HALVINGS: usize = 8;
@@ -77,7 +84,7 @@ pub struct Orbit {
     pub multipliers: Vec<Complex<f64>>,
     /// Whether none but those of phase and symmetries is larger than one.
     pub stable: bool,
-    /// What is left of S⁻¹ φ_T(y₀) = y₀, in the scales of the state.
+    /// What is left of S⁻¹ φ_T(y₀) = y₀, as a part of how far the motion goes.
     pub misfit: f64,
 }
 
@@ -96,19 +103,47 @@ pub enum NoOrbit {
         reason: String,
     },
     /// The search came to a stop.
-    #[error("no start comes back to itself: after {period} s the nearest is {misfit:.1e} of its scales away")]
+    #[error("no start comes back to itself: after {period} s the nearest is {misfit:.1e} of how far it goes away")]
     NotFound {
         /// The period of the last one tried \[s\].
         period: f64,
         /// What is left.
         misfit: f64,
     },
+    /// Orbits were found, but none that was asked for.
+    #[error("no orbit near the start has what was asked for: the nearest is off by {off:.1e} of it")]
+    NotChosen {
+        /// What is left.
+        off: f64,
+    },
     /// Something depends on time, and no period is given.
     #[error("something in the scene depends on time, and an orbit has the period of that: it must be given")]
     Driven,
+    /// The period that is given is none of what depends on time.
+    #[error(
+        "{period} s is no period of what in the scene depends on time: after {repetitions} of them rates along the \
+         motion are others, by {difference:.1e} of the largest"
+    )]
+    NotPeriodic {
+        /// The period \[s\].
+        period: f64,
+        /// After how many of them.
+        repetitions: usize,
+        /// The largest difference.
+        difference: f64,
+    },
+    /// The fluid remembers how a body moved.
+    #[error(
+        "the fluid remembers how a body moved (`history`), which an orbit would have to come back to as well: write \
+         history = false to leave that out"
+    )]
+    Remembers,
     /// No body can move.
     #[error("nothing in the scene can move")]
     NothingMoves,
+    /// No body does.
+    #[error("the motion has come to rest: there is none that could come back")]
+    AtRest,
     /// Iterations of linear algebra do not end.
     #[error("the {0} of a period cannot be computed")]
     NotComputed(&'static str),
@@ -129,7 +164,9 @@ struct Trial {
     /// S⁻¹ y(T) − y₀ in coordinates, and ẏ at both.
     gap: DVector<f64>,
     rates: [DVector<f64>; 2],
+    /// What is left, and how far the motion goes, in scales.
     misfit: f64,
+    extent: f64,
     chart: Chart,
 }
 
@@ -140,17 +177,17 @@ impl Orbit {
     /// [`NoOrbit`].
     pub fn near(search: &OrbitSearch<'_>, start: &State, period: f64, choice: &Choice<'_>) -> Result<Self, NoOrbit> {
         let model = search.model;
-        let mut trial = Trial::of(search, start.clone(), period)?;
-        if trial.gap.is_empty() {
-            return Err(NoOrbit::NothingMoves);
+        if model.bodies.iter().any(|body| body.history().is_some()) {
+            return Err(NoOrbit::Remembers);
         }
-        let driven = trial.is_driven()?;
+        let mut trial = Trial::of(search, start.clone(), period)?;
+        let driven = model.is_driven() || search.is_carried(&mut trial)?;
         if driven && !matches!(choice, Choice::Period) {
             return Err(NoOrbit::Driven);
         }
         let mut off = wanted(model, choice, &trial.start)?;
         for _ in 0..MOST_STEPS {
-            if trial.misfit <= FOUND * 1e-2 * trial.path().min(1.0) && off.abs() <= FOUND {
+            if trial.missed(0.0) <= FOUND * 1e-2 && off.abs() <= FOUND {
                 break;
             }
             let step = trial.step(model, choice, driven, off)?;
@@ -164,15 +201,22 @@ impl Orbit {
             let Some((next, left)) = next else { break };
             (trial, off) = (next, left);
         }
-        if trial.misfit > FOUND || off.abs() > FOUND {
-            return Err(NoOrbit::NotFound { period: trial.period, misfit: trial.misfit.max(off.abs()) });
+        let misfit = trial.missed(0.0);
+        if misfit > FOUND {
+            return Err(NoOrbit::NotFound { period: trial.period, misfit });
+        }
+        if off.abs() > FOUND {
+            return Err(NoOrbit::NotChosen { off: off.abs() });
+        }
+        if driven {
+            search.check_period(&mut trial)?;
         }
         let mut multipliers = eigenvalues(&trial.derivative).ok_or(NoOrbit::NotComputed("multipliers"))?;
         let order = |mu: &Complex<f64>| [mu.modulus(), mu.re, mu.im];
         multipliers.sort_by(|a, b| order(b).partial_cmp(&order(a)).unwrap_or(Ordering::Equal));
         let grows = |mu: &Complex<f64>| (mu - 1.0).modulus() > TRIVIAL && mu.modulus() > 1.0 + STABLE;
         let stable = !multipliers.iter().any(grows);
-        Ok(Self { period: trial.period, start: trial.start, multipliers, stable, misfit: trial.misfit })
+        Ok(Self { period: trial.period, start: trial.start, multipliers, stable, misfit })
     }
 
     /// How long a motion takes to come near to its start, its cells moved on if that is asked for: when its distance,
@@ -185,15 +229,14 @@ impl Orbit {
         let OrbitSearch { model, plan, .. } = *search;
         let (mut times, mut changes) = (Vec::new(), Vec::<DVector<f64>>::new());
         let (first, mut most_lost, mut most_kinetic) = (energy(model, start)?, 0.0_f64, 0.0_f64);
-        each_state(model, start, plan, |state| {
+        let ended = each_state(model, start, plan, |state| {
             times.push(state.time);
             changes.push(change(model, start, &search.back(state)));
             // A state that cannot be seen has no energy to compare.
             let [total, kinetic] = seen(model, state).unwrap_or([f64::NAN; 2]);
             most_lost = most_lost.max((total - first).abs());
             most_kinetic = most_kinetic.max(kinetic);
-        })
-        .map_err(|error| NoOrbit::Flow { period: plan.end, reason: error.to_string() })?;
+        });
         // Each number by how far those of its kind go: what hardly moves decides nothing.
         let least = LEAST_SPAN * scales(model, plan.end);
         let spans = changes.iter().fold(least, |spans, change| spans.sup(&change.abs()));
@@ -211,7 +254,12 @@ impl Orbit {
             size(*k) < 0.3 * most && size(*k) <= size(*k - 1) && size(*k) <= size(*k + 1)
         });
         let keeps = most_lost <= KEPT * most_kinetic;
-        back.map(|k| (away[k].0, keeps)).ok_or(NoOrbit::NoReturn { end: plan.end })
+        match (back, ended) {
+            // What becomes of it later is not asked.
+            (Some(k), _) => Ok((away[k].0, keeps)),
+            (None, Ok(())) => Err(NoOrbit::NoReturn { end: plan.end }),
+            (None, Err(error)) => Err(NoOrbit::Flow { period: plan.end, reason: error.to_string() }),
+        }
     }
 }
 
@@ -220,6 +268,58 @@ impl OrbitSearch<'_> {
     fn back(&self, state: &State) -> State {
         self.shift.as_ref().map_or_else(|| state.clone(), |shift| shift.back(state))
     }
+
+    /// Whether rates along a motion are others at another time: supports that go on or turn change more than the
+    /// velocity of a surface that stays where it is.
+    fn is_carried(&self, trial: &mut Trial) -> Result<bool, NoOrbit> {
+        let moves = self.model.supports.iter().any(|support| !support.motion.is_fixed())
+            || self.model.solid_supports.iter().any(|support| !support.motion.is_fixed());
+        let later = [0.131, 0.373, 0.719].map(|part| part * trial.period);
+        Ok(moves && self.difference_later(trial, &later)? > 1e-12)
+    }
+
+    /// Refuses a period that is none of what drives the motion.
+    fn check_period(&self, trial: &mut Trial) -> Result<(), NoOrbit> {
+        for repetitions in 1..=REPETITIONS {
+            let difference = self.difference_later(trial, &[repetitions as f64 * trial.period])?;
+            if difference > SAME {
+                return Err(NoOrbit::NotPeriodic { period: trial.period, repetitions, difference });
+            }
+        }
+        Ok(())
+    }
+
+    /// By how much the rates of the states of a motion over a period differ later, by times \[s\], from what they are:
+    /// the largest difference in coordinates, as a part of the largest rate.
+    fn difference_later(&self, trial: &mut Trial, later: &[f64]) -> Result<f64, NoOrbit> {
+        let (mut largest, mut difference, mut left) = (0.0_f64, 0.0_f64, None);
+        let plan = RunPlan { end: trial.period, ..*self.plan };
+        let start = trial.start.clone();
+        let chart = &mut trial.chart;
+        let ended = each_state(self.model, &start, &plan, |state| {
+            let mut compare = || {
+                let here = chart.rates(state.time, state)?;
+                largest = largest.max(chart.size(&here));
+                for later in later {
+                    let there = chart.rates(state.time + later, state)?;
+                    difference = difference.max(chart.size(&(there - &here)));
+                }
+                Ok::<(), Inadmissible>(())
+            };
+            if let Err(outside) = compare() {
+                left.get_or_insert(outside);
+            }
+        });
+        ended.map_err(|error| NoOrbit::Flow { period: plan.end, reason: error.to_string() })?;
+        // A state that is outside the model later is another one.
+        Ok(if left.is_some() {
+            f64::INFINITY
+        } else if largest > 0.0 {
+            difference / largest
+        } else {
+            0.0
+        })
+    }
 }
 
 impl Trial {
@@ -227,12 +327,26 @@ impl Trial {
         let OrbitSearch { model, plan, .. } = *search;
         let mut start = State { time: 0.0, ..start };
         let mut chart = Chart::about(model, &start, period)?;
+        if chart.directions().is_empty() {
+            return Err(NoOrbit::NothingMoves);
+        }
         chart.project(&mut start);
-        let tolerance = Tolerance { rtol: plan.tolerance.rtol.min(RTOL), ..plan.tolerance };
+        let mut extent = 0.0_f64;
+        let lost = |error: NoFlow| NoOrbit::Flow { period, reason: error.to_string() };
+        each_state(model, &start, &RunPlan { end: period, ..*plan }, |state| {
+            extent = extent.max(chart.size(&change(model, &start, state)));
+        })
+        .map_err(lost)?;
+        if extent < REST {
+            return Err(NoOrbit::AtRest);
+        }
+        let [usual, least] = RTOL;
+        let rtol = plan.tolerance.rtol.min((usual * extent.min(1.0)).max(least));
+        let tolerance = Tolerance { rtol, atol: plan.tolerance.atol.min(rtol) };
         let options = Options { order: ImplicitOrder::at_tolerance(tolerance.rtol), ..plan.options };
         let plan = RunPlan { end: period, tolerance, options, ..*plan };
         let flow = Flow::of(model, &start, &plan, &chart.directions());
-        let flow = flow.map_err(|error: NoFlow| NoOrbit::Flow { period, reason: error.to_string() })?;
+        let flow = flow.map_err(lost)?;
         let end = search.back(&flow.end);
         let mut derivative = match &search.shift {
             None => flow.derivative,
@@ -252,33 +366,16 @@ impl Trial {
             gap: column(&left, &chart),
             derivative: chart.coordinates(&derivative),
             rates,
+            extent,
             start,
             period,
             chart,
         })
     }
 
-    /// Whether the rates of one state change with time.
-    fn is_driven(&mut self) -> Result<bool, NoOrbit> {
-        let first = self.chart.rates(0.0, &self.start)?;
-        for part in [0.131, 0.373, 0.719] {
-            let later = self.chart.rates(part * self.period, &self.start)?;
-            if (&later - &first).amax() > 1e-12 * first.amax().max(later.amax()) {
-                return Ok(true);
-            }
-        }
-        Ok(false)
-    }
-
-    /// How far the motion goes in a period, about, in scales.
-    fn path(&self) -> f64 {
-        self.period * self.rates[0].amax()
-    }
-
-    /// By what it is no orbit: the misfit as a part of the path, and what it is chosen by.
+    /// By what it is no orbit: the misfit as a part of how far it goes, and what it is chosen by.
     fn missed(&self, off: f64) -> f64 {
-        let path = self.path();
-        self.misfit / if path > 0.0 { path } else { 1.0 } + off.abs()
+        self.misfit / self.extent + off.abs()
     }
 
     /// Newton's step of coordinates, in scales, and period, as a part of it.

@@ -40,7 +40,7 @@ pub struct OrbitSurvey {
     pub multipliers: Vec<[f64; 2]>,
     /// Whether none but those of phase and symmetries is larger than one.
     pub stable: bool,
-    /// What is left after a period, in the scales of the state.
+    /// What is left after a period, as a part of how far the motion goes.
     pub misfit: f64,
     /// By how many cells along each direction it has moved on after a period, if that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -37,6 +37,54 @@ fn an_orbit_has_its_period_whatever_chooses_it() {
     assert!((nearest.start["a"].position[0] - 0.9).abs() < 1e-3, "{nearest:?}");
 }
 
+/// The same well a million times wider and narrower, beside a point whose size counts as a metre.
+#[test]
+fn an_orbit_has_its_period_however_far_it_goes() {
+    let well = |scale: f64| {
+        let text = WELL.replace("[0.9, 0, 0]", &format!("[{scale:e}, 0, 0]"));
+        text.replace("0.25*x^4", &format!("0.25*x^4/{scale:e}^2"))
+    };
+    // Places have the digits of a metre.
+    let said = orbit(&well(1e-9), &OrbitChoice::Nearest).unwrap_err();
+    assert!(said.contains("no start comes back to itself"), "{said}");
+    for scale in [1e6, 1e-3, 1e-4] {
+        let well = well(scale);
+        let found = orbit(&well, &OrbitChoice::Nearest).unwrap();
+        assert!((found.period - PERIOD).abs() < 1e-7 && found.stable, "{scale}: {} {:?}", found.period, found);
+        // Friction leaves nothing that comes back, however small the search makes it.
+        let row = |k: usize| (0..12).map(|i| if i == k && k < 3 { 0.3 } else { 0.0 }).collect::<Vec<f64>>();
+        let friction: Vec<_> = (0..12).map(row).collect();
+        let damped = format!("{well}linear_friction = {{ matrix = {friction:?} }}\n");
+        orbit(&damped, &OrbitChoice::Nearest).unwrap_err();
+    }
+}
+
+/// A ball over a table that shakes, and which it meets but for a part of the time; a period that is none of its drive.
+#[test]
+fn a_drive_is_seen_wherever_it_is_felt() {
+    let shaken = r#"
+time = { end = 3, sample = 0.1 }
+[[support]]
+name = "table"
+plane = {}
+motion = { oscillate = { direction = [0, 0, 1], amplitude = 0.02, frequency = 1.5 } }
+[[contact]]
+support = "table"
+repulsion = { alpha = "40 kPa", nu = 6, d0 = "2 mm" }
+[[body]]
+name = "a"
+shape = { sphere = { radius = 0.05 } }
+density = 1000
+position = [0, 0, 0.5]
+"#;
+    let said = orbit(shaken, &OrbitChoice::Nearest).unwrap_err();
+    assert!(said.contains("depends on time"), "{said}");
+    let driven = WELL.replace("0.25*x^4", "0.25*x^4 - 0.1*x*cos(t/0.2)").replace("[0.9,", "[0,");
+    orbit(&driven, &OrbitChoice::Period(0.4 * std::f64::consts::PI)).unwrap();
+    let said = orbit(&driven, &OrbitChoice::Period(1.25)).unwrap_err();
+    assert!(said.contains("no period of what in the scene depends on time"), "{said}");
+}
+
 #[test]
 fn bodies_that_are_kept_have_the_multipliers_that_they_can_have() {
     // A rod on a hinge: an angle and its rate; a box without volume change: 2 · 11 numbers and its centre among them.

@@ -79,13 +79,13 @@ const LOOKED_AT: usize = 16;
 /// Hands over the states of a run, each step at places of its own.
 ///
 /// # Errors
-/// `RunError` where it does not begin; a run that ends early ends what is handed over.
+/// [`NoFlow`] where it does not begin, or ends early.
 pub(crate) fn each_state(
     model: &Model,
     start: &State,
     plan: &RunPlan,
     mut each: impl FnMut(&State),
-) -> Result<(), RunError> {
+) -> Result<(), NoFlow> {
     let (plan, mut simulation, mut sink) = begun(model, start, plan)?;
     let mut state = start.clone();
     state.low.clear();
@@ -101,8 +101,10 @@ pub(crate) fn each_state(
                 each(&state);
             }
         }
-        if ended.is_some() {
-            return Ok(());
+        match ended {
+            None => {}
+            Some(Outcome::Stopped(stop)) => return Err(NoFlow::Lost(stop.what)),
+            Some(_) => return Ok(()),
         }
     }
 }

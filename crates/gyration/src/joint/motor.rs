@@ -16,6 +16,8 @@ use std::sync::Arc;
 pub const ANGLE_NAMES: [&str; 3] = ["angle", "rate", "t"];
 /// The variables of u of a slider.
 pub const WAY_NAMES: [&str; 3] = ["distance", "rate", "t"];
+/// The index of t among them.
+const TIME: usize = 2;
 
 /// A drive and stops; none of them if there are none.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -118,6 +120,15 @@ impl Motor {
     /// Whether its drive may depend on the motion.
     pub fn is_feedback(&self) -> bool {
         matches!(self.drive, Some(Drive::Feedback(_)))
+    }
+
+    /// Whether its drive is another one at another time.
+    pub fn uses_time(&self) -> bool {
+        match &self.drive {
+            Some(Drive::Feedback(expression)) => expression.uses(TIME),
+            Some(Drive::Signal(signal)) => !signal.is_steady(),
+            None => false,
+        }
     }
 
     /// By how much u of a hinge jumps as its angle goes from π to −π at this rate and time; none where it goes on

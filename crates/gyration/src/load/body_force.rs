@@ -58,6 +58,11 @@ impl FieldOfForce {
         Ok(Self([read(0)?, read(1)?, read(2)?]))
     }
 
+    /// True if t stands in it.
+    pub fn uses_time(&self) -> bool {
+        self.0.iter().any(|component| component.uses(TIME))
+    }
+
     /// The degree of the polynomial in x, y, z that b is; none if it is none.
     pub fn degree(&self) -> Option<usize> {
         self.0.iter().map(|component| component.degree(&[0, 1, 2])).try_fold(0, |most, degree| Some(degree?.max(most)))

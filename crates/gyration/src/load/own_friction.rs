@@ -61,6 +61,17 @@ pub enum FrictionFault {
 }
 
 impl OwnFriction {
+    /// True if t stands in it.
+    pub fn uses_time(&self) -> bool {
+        match &self.matrix {
+            FrictionMatrix::Scaled(_, formula) => formula.uses_time(),
+            FrictionMatrix::Entries(rows) => rows.iter().flatten().any(|entry| match entry {
+                FrictionEntry::Constant(_) => false,
+                FrictionEntry::Formula(formula) => formula.uses_time(),
+            }),
+        }
+    }
+
     /// A friction of this matrix in these axes.
     pub fn new(matrix: FrictionMatrix, frame: Frame) -> Self {
         Self { matrix, frame }

@@ -5,6 +5,7 @@
 mod build;
 mod chains;
 mod deformed;
+mod driven;
 mod ledger;
 mod negligible;
 mod part;
