@@ -2,6 +2,7 @@
 
 use crate::party::Party;
 use gyration_expression::Undefined;
+use std::fmt;
 
 /// The force that a formula stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -105,9 +106,48 @@ pub enum Quantity {
     Interruption,
 }
 
+impl fmt::Display for FormulaOf {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Potential => f.write_str("its potential"),
+            Self::BodyForce => f.write_str("the force on its volume"),
+            Self::PointForce => f.write_str("the force at one of its points"),
+            Self::Friction => f.write_str("its friction"),
+            Self::Bond(bond) => write!(f, "bond {bond}"),
+            Self::Joint(joint) => write!(f, "the drive of joint {joint}"),
+        }
+    }
+}
+
+/// In words, with indices of the model in the place of names.
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Gap { support } => write!(f, "the smallest gap to support {support} [m]"),
+            Self::SpringLength { spring } => write!(f, "the length of spring {spring} [m]"),
+            Self::BondLength { bond } => write!(f, "the length of bond {bond} [m]"),
+            Self::PairGap { other, .. } => write!(f, "the gap to {other} [m]"),
+            Self::PairPlane { other, .. } => write!(f, "the decrement with which no plane was found to {other}"),
+            Self::FluidGap { other } => write!(f, "the distance in the fluid to body {other} [m]"),
+            Self::Stray => f.write_str("how far it has come away in its cell [m]"),
+            Self::JointLimit { joint } => write!(f, "the way left to a limit of joint {joint}"),
+            Self::Joints { joint } => write!(f, "the pivot of joint {joint}, whose equations follow from others,"),
+            Self::Volume => f.write_str("det P"),
+            Self::Contraction => f.write_str("det G"),
+            Self::Resistance => f.write_str("the resistance to its motion"),
+            Self::Balance => f.write_str("what is left of its balance"),
+            Self::Slenderness => f.write_str("its ratio of semi-axes"),
+            Self::Elements => f.write_str("the error of its boundary elements"),
+            Self::Interpolation => f.write_str("the error of its interpolated resistance"),
+            Self::Formula { of, undefined } => write!(f, "{of} is undefined ({undefined}), whose argument"),
+            Self::Interruption => f.write_str("the search for its forces was given up; its value"),
+        }
+    }
+}
+
 /// A state outside the model: which body, which quantity, its value.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("body {body}: {quantity:?} is {value:e}")]
+#[error("body {body}: {quantity} is {value:e}")]
 pub struct Inadmissible {
     /// Index of the body.
     pub body: usize,

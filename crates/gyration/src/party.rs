@@ -1,5 +1,7 @@
 //! Who something acts between: bodies, supports, space.
 
+use std::fmt;
+
 /// One of the two between which something acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Party {
@@ -11,6 +13,17 @@ pub enum Party {
     SolidSupport(usize),
     /// Space itself, where anchors are.
     Space,
+}
+
+impl fmt::Display for Party {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Body(index) => write!(f, "body {index}"),
+            Self::Support(index) => write!(f, "support {index}"),
+            Self::SolidSupport(index) => write!(f, "support {index} with a shape"),
+            Self::Space => f.write_str("space"),
+        }
+    }
 }
 
 impl Party {

@@ -23,6 +23,8 @@ const LONGEST: f64 = 0.05;
 const DIFFERENCE: f64 = 1e-6;
 /// The step in F̄ by which the matrices are differentiated: their second derivatives then add a little to a bound.
 const PROBE: f64 = 1e-5;
+/// A step is halved so often, where it leads to a cell without a rest.
+const MOST_HALVINGS: usize = 8;
 /// Steps below this are the last.
 const SMALL: f64 = 1e-13;
 /// Stiffness below this part of the largest is none: above what differences leave.
@@ -40,11 +42,9 @@ impl StrainedCell {
             Mat3::identity() + strain
         };
         let mut x = DVector::zeros(basis.len());
-        let mut cell = self.clone();
         let mut last = f64::INFINITY;
+        let (mut cell, mut force) = self.left(&gradient(&x), load, &basis)?;
         for _ in 0..MOST {
-            let (here, force) = cell.left(&gradient(&x), load, &basis)?;
-            cell = here;
             let mut stiffness = DMatrix::zeros(basis.len(), basis.len());
             for k in 0..basis.len() {
                 let beside = |side: f64| {
@@ -75,7 +75,20 @@ impl StrainedCell {
                 };
             }
             last = size;
-            x += step;
+            // A cell in which bodies overlap, or do not come to rest, is too far away.
+            let mut halvings = 0;
+            (cell, force) = loop {
+                let next = &x + &step;
+                match cell.left(&gradient(&next), load, &basis) {
+                    Ok(found) => {
+                        x = next;
+                        break found;
+                    }
+                    Err(NoBands::Rest(_)) if halvings < MOST_HALVINGS => step *= 0.5,
+                    Err(error) => return Err(error),
+                }
+                halvings += 1;
+            };
         }
         Err(NoBands::CellNotFound(last))
     }
