@@ -14,6 +14,10 @@ use gyration_ode::Integrator;
 use gyration_record::RecordError;
 use gyration_scene::Scene;
 
+/// A tangent that is lost this near to the end of a run that stopped, as a part of its time, is lost by that: a field is
+/// singular there.
+const AT_THE_END: f64 = 1.0 - 1e-12;
+
 /// A run, its tangent, and the derivatives so far.
 pub(super) struct Following<'a> {
     pub found: Sensitivities,
@@ -116,8 +120,7 @@ impl<'a> Following<'a> {
         self.found.counts = self.tangent.counts();
         for (derivatives, doubt) in self.found.derivatives.iter_mut().zip(self.tangent.doubts()) {
             if let Outcome::Stopped(stop) = &outcome
-                && at_end
-                && derivatives.lost.as_ref().is_none_or(|lost| lost.from >= stop.time)
+                && derivatives.lost.as_ref().map_or(at_end, |lost| lost.from >= AT_THE_END * stop.time)
             {
                 let reason = format!("the run ends there, before its time: {}", stop.what);
                 derivatives.lost = Some(Meaningless { from: stop.time, reason });

@@ -24,7 +24,7 @@ use crate::variation::{BaseRates, SceneVariation};
 use gyration::Inadmissible;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_ode::{BlockMatrix, Integrator, System as _};
+use gyration_ode::{BlockMatrix, Extended, ExtendedMut, Integrator, System as _};
 use nalgebra::DMatrix;
 
 /// The error of a step, as a part of rtol.
@@ -44,6 +44,8 @@ const MOST_STEPS: usize = 100;
 /// A step may not be smaller than this part of a step of the run: of a body at rest that is long, but what is varied in
 /// it may relax within no time.
 const SMALLEST: f64 = 1e-13;
+/// Nor may the error ask for one of so few digits of the time: its nodes could not be told apart.
+const LEAST_DIGITS: f64 = 64.0 * f64::EPSILON;
 /// So many steps are tried for each of the run, and so many besides: deep in a field of which the run has a few long
 /// steps there may be no end of them.
 const MOST_TRIED: (u64, u64) = (200, 100_000);
@@ -219,9 +221,10 @@ impl<'a> Tangent<'a> {
 
     /// Looks at the state that has been come to, in the last step of the run.
     pub fn look(&mut self, run: &Integrator) {
-        let State { time, bodies, works, .. } = &mut self.at;
+        let State { time, bodies, low, works } = &mut self.at;
         *time = self.time;
         run.interpolate(*time, bodies, works);
+        low.clear();
         self.project();
     }
 
@@ -281,7 +284,8 @@ impl<'a> Tangent<'a> {
     fn step_to(&mut self, wanted: f64) {
         let end = self.history.limit(self.time, wanted, SPAN);
         let size = end - self.time;
-        if size <= SMALLEST * self.history.step_at(self.time) {
+        let has_no_digits = self.size <= LEAST_DIGITS * self.time.abs();
+        if has_no_digits || size <= SMALLEST * self.history.step_at(self.time) {
             return self.lose_all("it changes faster than can be followed".into());
         }
         let [tried, run] = self.tried;
@@ -325,12 +329,14 @@ impl<'a> Tangent<'a> {
         let mut nodes = Nodes::default();
         for (node, part) in NODES.iter().enumerate() {
             self.at.time = if node + 1 == STAGES { to } else { from + part * (to - from) };
-            self.history.at(self.at.time, &mut self.at.bodies);
+            self.at.low.resize(self.at.bodies.len(), 0.0);
+            self.history.at(self.at.time, &mut self.at.bodies, &mut self.at.low);
             self.project();
             let mut slopes = BlockMatrix::new(model.blocks());
             // A step may end at a kink, behind which the model is another one.
             let inside = self.at.time - INSIDE * (to - from);
-            self.system.jacobian(inside, &self.at.bodies, &mut slopes)?;
+            let y = Extended { high: &self.at.bodies, low: &self.at.low };
+            self.system.extended_jacobian(inside, y, &mut slopes)?;
             let (forcing, forcing_works) = self.forcing();
             nodes.sets = apart(self.system.components(), model.blocks());
             nodes.stages.slopes.push(together(&slopes, self.system.components(), model.blocks()));
@@ -343,8 +349,8 @@ impl<'a> Tangent<'a> {
 
     /// Puts the state at hand on its manifold, and finds its scales.
     fn project(&mut self) {
-        let State { time, bodies, works, .. } = &mut self.at;
-        self.system.project(*time, bodies, works);
+        let State { time, bodies, low, works } = &mut self.at;
+        self.system.extended_project(*time, ExtendedMut { high: bodies, low }, works);
         fill_scales(&mut self.system, &self.at, &mut self.scales);
     }
 
@@ -359,7 +365,7 @@ impl<'a> Tangent<'a> {
             let Ok(Followed::Number(number)) = followed else { continue };
             let (varied, kinks) = &mut **number;
             for (time, weight) in kinks.beside(self.at.time).into_iter().filter(|(_, weight)| *weight != 0.0) {
-                match varied.rates(model, &mut self.base, (time, &self.at.bodies, &self.scales)) {
+                match varied.rates(model, &mut self.base, (time, self.at.numbers(), &self.scales)) {
                     Ok(found) => {
                         let mut own = forcing.column_mut(column);
                         own.iter_mut().zip(&found[..n]).for_each(|(sum, value)| *sum += weight * value);

@@ -14,6 +14,7 @@
 use super::number::SceneNumber;
 use gyration::Inadmissible;
 use gyration::dynamics::{Workspace, rates};
+use gyration::extended::Numbers;
 use gyration::model::Model;
 use gyration_scene::Scene;
 
@@ -54,7 +55,7 @@ impl BaseRates {
     }
 
     /// f and g at a time.
-    fn at(&mut self, model: &Model, time: f64, bodies: &[f64], works: usize) -> Result<&[f64], Inadmissible> {
+    fn at(&mut self, model: &Model, time: f64, bodies: Numbers, works: usize) -> Result<&[f64], Inadmissible> {
         if self.time != Some(time) {
             self.time = None;
             self.evaluations += 1;
@@ -69,12 +70,13 @@ impl BaseRates {
 fn fill(
     model: &Model,
     workspace: &mut Workspace,
-    (time, bodies, works): (f64, &[f64], usize),
+    (time, bodies, works): (f64, Numbers, usize),
     out: &mut Vec<f64>,
 ) -> Result<(), Inadmissible> {
-    out.resize(bodies.len() + works, 0.0);
-    let (slopes, powers) = out.split_at_mut(bodies.len());
-    rates(model, workspace, time, bodies.into(), slopes, powers)
+    let n = bodies.high.len();
+    out.resize(n + works, 0.0);
+    let (slopes, powers) = out.split_at_mut(n);
+    rates(model, workspace, time, bodies, slopes, powers)
 }
 
 impl KnownDependence {
@@ -113,9 +115,9 @@ impl KnownDependence {
         &mut self,
         model: &Model,
         base: &mut BaseRates,
-        (time, bodies, scales): (f64, &[f64], &[f64]),
+        (time, bodies, scales): (f64, Numbers, &[f64]),
     ) -> Result<(Vec<f64>, f64), Inadmissible> {
-        let works = scales.len() - bodies.len();
+        let works = scales.len() - bodies.high.len();
         let here = base.at(model, time, bodies, works)?;
         let Self { weight, neighbour, workspace, values, .. } = self;
         fill(&neighbour.built().model, workspace, (time, bodies, works), values)?;
@@ -218,7 +220,7 @@ mod tests {
         let works = if key.ends_with("density") { 0 } else { built.model.works().len() };
         let scales = vec![1.0; built.state.bodies.len() + works];
         let of = |variation: &mut SceneVariation| {
-            let at = (0.0, built.state.bodies.as_slice(), scales.as_slice());
+            let at = (0.0, Numbers::from(&built.state.bodies), scales.as_slice());
             variation.rates(&built.model, &mut BaseRates::default(), at).unwrap()
         };
         let by_four = of(&mut SceneVariation::new(scene, number()).unwrap());
@@ -227,7 +229,7 @@ mod tests {
         // A neighbour and the scene itself, and no other one.
         assert!(variation.known.is_some() && variation.evaluations() == 1, "{key}");
         let mut base = BaseRates::default();
-        let here = base.at(&built.model, 0.0, &built.state.bodies, works).unwrap();
+        let here = base.at(&built.model, 0.0, (&built.state.bodies).into(), works).unwrap();
         let fastest = here.iter().fold(0.0, |most: f64, entry| most.max(entry.abs()));
         // Roundings of the rates over a ten thousandth of the number.
         let rounding = 30.0 * f64::EPSILON * fastest / (1e-4 * variation.scale());

@@ -20,6 +20,7 @@ use dependence::KnownDependence;
 use difference::{Difference, rounding};
 use gyration::Inadmissible;
 use gyration::dynamics::{Workspace, rates};
+use gyration::extended::Numbers;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_scene::Scene;
@@ -160,11 +161,11 @@ impl SceneVariation {
         &mut self,
         model: &Model,
         base: &mut BaseRates,
-        (time, bodies, scales): (f64, &[f64], &[f64]),
+        (time, bodies, scales): (f64, Numbers, &[f64]),
     ) -> Result<Vec<f64>, NoDerivative> {
-        let works = scales.len() - bodies.len();
+        let n = bodies.high.len();
         if self.starts_only {
-            return Ok(vec![0.0; bodies.len() + works]);
+            return Ok(vec![0.0; scales.len()]);
         }
         let found = self.known.as_mut().map(|known| known.derivative(model, base, (time, bodies, scales)));
         self.evaluations += u64::from(found.is_some());
@@ -176,9 +177,9 @@ impl SceneVariation {
         let mut evaluations = 0;
         let found = self.differentiate(scales, |scene, workspace, out| {
             evaluations += 1;
-            out.resize(bodies.len() + works, 0.0);
-            let (slopes, powers) = out.split_at_mut(bodies.len());
-            Ok(rates(&scene.built().model, workspace, time, bodies.into(), slopes, powers)?)
+            out.resize(scales.len(), 0.0);
+            let (slopes, powers) = out.split_at_mut(n);
+            Ok(rates(&scene.built().model, workspace, time, bodies, slopes, powers)?)
         });
         self.evaluations += evaluations;
         found
