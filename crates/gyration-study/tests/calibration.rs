@@ -1,49 +1,12 @@
 //! Numbers of contact laws from measurements: known ones come back, what cannot be known is named, bad files are
 //! refused.
 
+use crate::common::measured::{BALL, exact, fit, folder};
 use gyration_study::calibration::{Calibration, CalibrationError, Fitted};
 use gyration_threads::Interruption;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
-
-/// A ball above a table, in a file of its own.
-const BALL: &str = r#"
-    time = { end = 1.0, sample = 0.1 }
-    [[support]]
-    name = "table"
-    plane = {}
-    [[contact]]
-    support = "table"
-    repulsion = { alpha = 40e3, nu = 6, d0 = 2e-3 }
-    damping = { beta = 5e4, nu = 4, d0 = 2e-3 }
-    friction = { beta = 4e4, nu = 6, d0 = 2e-3 }
-    adhesion = { beta = 2e3, nu_attractive = 3, nu_repulsive = 9, d0 = 2e-3 }
-    [[body]]
-    name = "ball"
-    shape = { box = { size = [0.05, 0.05, 0.05] } }
-    density = 1000
-    position = [0, 0, 0.1]
-"#;
-
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::TempDir::new().unwrap();
-    std::fs::write(folder.path().join("ball.toml"), BALL).unwrap();
-    folder
-}
-
-fn fit(text: &str) -> Fitted {
-    let folder = folder();
-    Calibration::parse("data.toml", text, folder.path()).unwrap().fit().unwrap()
-}
-
-/// What the scene itself would have measured: residuals of data that are zero.
-fn exact(sections: &str) -> Vec<f64> {
-    let text = format!("scene = \"ball.toml\"\n[fit.a]\nkey = \"contact.0.repulsion.alpha\"\n{sections}");
-    let folder = folder();
-    let calibration = Calibration::parse("data.toml", &text, folder.path()).unwrap();
-    calibration.predictions().unwrap()
-}
 
 /// Measurements of gaps, slopes and pull-off, with these factors on what the scene gives.
 fn measurements(factors: impl Fn(usize) -> f64) -> String {
@@ -93,62 +56,6 @@ fn known_laws_come_back_from_what_they_make_measurable() {
         assert!((number.value - expected).abs() < 1e-6 * expected, "{}: {}", number.name, number.value);
     }
     assert!(found.undetermined.is_empty(), "{:?}", found.undetermined);
-}
-
-#[test]
-fn a_rebound_tells_the_damping() {
-    let text = |rebound: &str| {
-        format!(
-            "scene = \"ball.toml\"\n[fit.damping]\nkey = \"contact.0.damping.beta\"\nstart = 2e4\n\
-             [[drop]]\nheight = [0.1, \"30 cm\"]\nrebound = {rebound}\ndeviation = \"1 mm\"\n"
-        )
-    };
-    let sections = "[[drop]]\nheight = [0.1, \"30 cm\"]\nrebound = [0.05, 0.1]\ndeviation = \"1 mm\"\n";
-    let found = fit(&text(&format!("{:?}", exact(sections))));
-    println!("damping {} ± {:?}", found.numbers[0].value, found.numbers[0].error);
-    // The runs are known to 1e-8.
-    assert!((found.numbers[0].value - 5e4).abs() < 1e-6 * 5e4, "{}", found.numbers[0].value);
-}
-
-#[test]
-fn rebounds_from_short_impacts_tell_the_damping() {
-    let steel = "time = { end = 1, sample = 0.01 }\n[[support]]\nname = \"t\"\nplane = {}\n[[contact]]\nsupport = \"t\"\n\
-                 repulsion = { alpha = 1e4, nu = 6, d0 = 1e-4 }\ndamping = { beta = 2e4, nu = 4, d0 = 1e-4 }\n[[body]]\nname = \"b\"\n\
-                 shape = { sphere = { radius = 0.05 } }\ndensity = 2500\nposition = [0, 0, 0.5]\n";
-    let folder = tempfile::TempDir::new().unwrap();
-    std::fs::write(folder.path().join("steel.toml"), steel).unwrap();
-    let text = |start: f64, rebounds: &[f64]| {
-        format!(
-            "scene = \"steel.toml\"\n[fit.damping]\nkey = \"contact.0.damping.beta\"\nstart = {start:?}\n\
-             [[drop]]\nheight = [0.2, 0.35, 0.5]\nrebound = {rebounds:?}\ndeviation = 0.002\n"
-        )
-    };
-    let calibration =
-        |start: f64, rebounds: &[f64]| Calibration::parse("data.toml", &text(start, rebounds), folder.path()).unwrap();
-    let rebounds = calibration(6e4, &[0.1; 3]).predictions().unwrap();
-    let found = calibration(2e4, &rebounds).fit().unwrap();
-    println!("{rebounds:?}: {:?}", found.numbers);
-    assert!((found.numbers[0].value / 6e4 - 1.0).abs() < 1e-6, "{:?}", found.numbers);
-    // By what moves each rebound by a tenth of its deviation.
-    let moved = (0..3).map(|row| {
-        let rebounds: Vec<f64> = (0..3).map(|k| rebounds[k] + if k == row { 2e-4 } else { 0.0 }).collect();
-        10.0 * (calibration(6e4, &rebounds).fit().unwrap().numbers[0].value - 6e4)
-    });
-    let (error, expected) = (found.numbers[0].error.unwrap(), moved.map(|moved| moved * moved).sum::<f64>().sqrt());
-    println!("± {error}, by moving the measurements {expected}");
-    assert!((error / expected - 1.0).abs() < 0.02, "{error} {expected}");
-}
-
-#[test]
-fn a_body_that_spins_at_its_start_is_not_dropped() {
-    let text = "scene = \"ball.toml\"\nset = { \"body.ball.angular_velocity\" = [0, 1, 0] }\n[fit.damping]\nkey = \"contact.0.damping.beta\"\n\
-                [[drop]]\nheight = 0.1\nrebound = 0.05\ndeviation = 1e-3\n";
-    let folder = folder();
-    let message = Calibration::parse("data.toml", text, folder.path()).unwrap().fit().unwrap_err().to_string();
-    assert!(
-        message.contains("drop.0, row 1") && message.contains("released at rest") && message.contains("fix:"),
-        "{message}"
-    );
 }
 
 #[test]
@@ -227,32 +134,6 @@ fn the_largest_pull_is_found_however_short_its_reach() {
     // Of a flat face: β A max(x⁻³ − x⁻⁹), at x⁶ = 3, whatever d₀; its sides add the part d₀ over 5 cm.
     let exact = 2e3 * 0.05f64.powi(2) * (3f64.powf(-0.5) - 3f64.powf(-1.5));
     assert!(pulls.iter().all(|pull| (pull / exact - 1.0).abs() < 1e-3), "{pulls:?} {exact}");
-}
-
-#[test]
-fn a_rebound_has_derivatives_by_contacts_and_by_other_numbers_and_on_a_slope() {
-    for slope in [0.0, 0.1f64] {
-        let normal = format!("\"support.table.plane.normal\" = [{:?}, 0, {:?}]", slope.sin(), slope.cos());
-        let round = "\"body.ball.shape\" = { sphere = { radius = 0.025 } }";
-        let sections = "[[drop]]\nheight = [0.1, 0.2, 0.3]\nrebound = [0.01, 0.01, 0.01]\ndeviation = \"1 mm\"\n";
-        let text = |rebounds: &[f64], starts: [f64; 2]| {
-            format!(
-                "scene = \"ball.toml\"\nset = {{ {normal}, {round} }}\n[fit.damping]\nkey = \"contact.0.damping.beta\"\nstart = {:?}\n\
-                 [fit.density]\nkey = \"body.ball.density\"\nstart = {:?}\n{}",
-                starts[0],
-                starts[1],
-                sections.replace("[0.01, 0.01, 0.01]", &format!("{rebounds:?}"))
-            )
-        };
-        let folder = folder();
-        let exact = Calibration::parse("data.toml", &text(&[0.01; 3], [5e4, 1000.0]), folder.path()).unwrap();
-        let found = fit(&text(&exact.predictions().unwrap(), [4e4, 900.0]));
-        println!("slope {slope}: {:?} after {} evaluations", found.numbers, found.evaluations);
-        // Runs and differences of them are known to some 1e-6; the two are correlated.
-        for (number, truth) in found.numbers.iter().zip([5e4, 1000.0]) {
-            assert!((number.value / truth - 1.0).abs() < 1e-4, "{number:?}");
-        }
-    }
 }
 
 /// What the scene of the tests has at a name.

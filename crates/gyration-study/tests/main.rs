@@ -13,5 +13,6 @@ mod flips;
 mod keeps;
 mod python;
 mod random;
+mod rebounds;
 mod robust;
 mod table;

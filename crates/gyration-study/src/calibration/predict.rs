@@ -2,7 +2,7 @@
 //!
 //! | measured | computed |
 //! |---|---|
-//! | rebound | h + n·(p₀ − p₀(0)) at the first apex behind the first closest approach, from rest at a gap h |
+//! | rebound | the smallest gap at the first apex behind the first closest approach, from rest at a gap h |
 //! | gap | of the rest state, where the exact balance has no force left |
 //! | speed on a slope θ | at which friction is m g sin θ, at rest under g cos θ; without a bound m g sin θ/c |
 //! | slope where sliding begins | tan θ = F/(m g cos θ), F the most that friction holds at rest under g cos θ |

@@ -2,6 +2,7 @@
 
 use super::scene::{body, normal};
 use super::{Calibration, Experiment, FreeNumber};
+use gyration::body::BodyKind;
 use gyration::dynamics::gap_to_supports;
 use gyration::tensor::Vec3;
 use gyration_scene::{Override, Scene};
@@ -22,13 +23,16 @@ const MOST_STEPS: u64 = 20_000;
 /// what it leaves off, and standard errors are not known to more than three digits.
 const SLOPE_ERROR: f64 = 1e-6;
 
+/// The columns of the lowest point and of Ṗ.
+const GAP: &str = "gap";
+const GRADIENT_RATE: [&str; 9] =
+    ["Pdot_xx", "Pdot_xy", "Pdot_xz", "Pdot_yx", "Pdot_yy", "Pdot_yz", "Pdot_zx", "Pdot_zy", "Pdot_zz"];
+
 /// A body about to be dropped.
 pub(super) struct Drop {
     scene: Scene,
     index: usize,
     normal: Vec3,
-    height: f64,
-    start: Vec3,
 }
 
 /// A run to this time \[s\], sampled there only.
@@ -57,17 +61,20 @@ impl Drop {
         let more =
             [still, Override::new(format!("body.{}.position", experiment.body), <[f64; 3]>::from(start)), until(end)];
         let scene = calibration.scene(experiment, height, values, &more)?;
-        Ok(Self { scene, index, normal, height, start })
+        Ok(Self { scene, index, normal })
     }
 
     pub fn rebound(&self) -> Result<f64, String> {
         Ok(self.at_apex(&[])?.0)
     }
 
-    /// The rebound with its derivatives by keys; those at a fixed time, since the speed vanishes at the apex.
+    /// The gap at the apex with its derivatives by keys: those at a fixed time, which are those of the rebound where
+    /// the gap does not change at the apex; none of a body that turns or deforms there.
     fn at_apex(&self, keys: &[String]) -> Result<(f64, Vec<Option<f64>>), String> {
-        let name = self.scene.built().model.name(self.index);
-        let columns = ["x", "y", "z"].map(|axis| format!("{name}.{axis}"));
+        let model = &self.scene.built().model;
+        let name = model.name(self.index);
+        let columns: Vec<String> =
+            [GAP].iter().chain(&GRADIENT_RATE).map(|column| format!("{name}.{column}")).collect();
         let (mut touched, mut limit) = (false, StepLimit::default());
         // Behind the first touch, which is a closest approach.
         let is_apex = |event: &Event| {
@@ -77,26 +84,38 @@ impl Drop {
         };
         let found = Sensitivities::at_event(&self.scene, keys, &columns, SLOPE_ERROR, is_apex, &mut limit);
         let found = found.map_err(|error| error.to_string())?;
-        let Some(center) = found.values.last() else {
+        let Some([gap, rates @ ..]) = found.values.last().map(Vec::as_slice) else {
             return Err(match limit.is_reached {
                 true => format!("its run takes more than {MOST_STEPS} steps"),
                 false => format!("it does not rebound: {}", found.outcome.in_words()),
             });
         };
-        // The gap with which the body started, and the rise of its centre of mass since.
-        let rise = (Vec3::from_column_slice(center) - self.start).dot(&self.normal);
-        let slope = |row: &[f64]| Vec3::from_column_slice(row).dot(&self.normal);
-        let slopes = found.derivatives.iter().map(|by_key| by_key.at_end().ok().map(slope)).collect();
-        Ok((self.height + rise, slopes))
+        // A lift-off faster by dv has its apex higher by v dv/g and later by dv/g: a derivative at a fixed time is off
+        // by the rate of the gap over v, as a part of it.
+        let turning = rates.iter().map(|rate| rate * rate).sum::<f64>().sqrt() * model.bodies[self.index].size;
+        let is_stationary = turning <= SLOPE_ERROR * (2.0 * model.gravity.norm() * gap).sqrt();
+        let slope = |row: &[f64]| row.first().copied().filter(|_| is_stationary);
+        let slopes = found.derivatives.iter().map(|by_key| by_key.at_end().ok().and_then(slope)).collect();
+        Ok((*gap, slopes))
+    }
+
+    /// Whether it is a rigid body that rises straight up from planes at rest: its gap changes at the apex only if it
+    /// turns there.
+    fn is_straight(&self) -> bool {
+        let model = &self.scene.built().model;
+        let is_level = -model.gravity.dot(&self.normal) > (1.0 - LEVEL) * model.gravity.norm();
+        let mut contacts = model.contacts_of(self.index);
+        is_level
+            && matches!(model.bodies[self.index].kind, BodyKind::Rigid(_))
+            && contacts.all(|contact| model.supports[contact.support].motion.is_fixed())
     }
 
     /// The rebound, and its derivatives by those numbers that have one along the run: none if a number belongs to more
-    /// than the contacts, to where the body starts perhaps, or if the body does not rebound straight up, so that its
-    /// speed along the normal does not vanish at the apex.
+    /// than the contacts, to where the body starts perhaps, or if the gap still changes at the apex: above a slope,
+    /// above a plane that moves, and of a body that turns or deforms.
     pub fn predicted(&self, calibration: &Calibration) -> Result<(f64, Vec<Option<f64>>), String> {
-        let gravity = self.scene.built().model.gravity;
-        let is_level = -gravity.dot(&self.normal) > (1.0 - LEVEL) * gravity.norm();
-        let of_contact = |number: &FreeNumber| is_level && number.keys.iter().all(|key| key.starts_with("contact."));
+        let is_straight = self.is_straight();
+        let of_contact = |number: &FreeNumber| is_straight && number.keys.iter().all(|key| key.starts_with("contact."));
         let keys: Vec<String> = calibration
             .numbers
             .iter()

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, clippy::unwrap_used)]
 
+pub mod measured;
+
 use gyration_sim::Unwatched;
 use gyration_study::{Study, Table, execute};
 use std::num::NonZeroUsize;
