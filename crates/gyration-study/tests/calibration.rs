@@ -224,6 +224,8 @@ fn bad_files_are_refused_with_place_and_fix() {
     std::fs::write(folder.path().join("drops.csv"), "hight, rebound\n0.1, 0.05\n").unwrap();
     std::fs::write(folder.path().join("short.csv"), "gap, deviation\n# a remark\n1e-3\n").unwrap();
     std::fs::write(folder.path().join("bytes.csv"), b"gap, note\n1e-3, \xb5m\n").unwrap();
+    std::fs::write(folder.path().join("twice.csv"), "# a remark\nnote, gap, note, gap\n, 1e-3, , 2e-3\n").unwrap();
+    std::fs::write(folder.path().join("semicolons.csv"), "gap; deviation\n1,5; 0,1\n").unwrap();
     let cases = [
         ("scene = \"ball.toml\"", "[[drop]]\nheight = 0.1\nrebound = 0.2\ndeviation = 1e-3", "row 1: 0.2 m cannot be"),
         ("scene = \"ball.toml\"", "[[slope]]\nangle = 0.1\nspeed = -0.2\ndeviation = 1e-3", "cannot be"),
@@ -253,6 +255,13 @@ fn bad_files_are_refused_with_place_and_fix() {
         ("scene = \"ball.toml\"", "[[gap]]\ntable = \"gabs.csv\"", "gabs.csv cannot be read"),
         ("scene = \"ball.toml\"", "[[gap]]\ntable = \"short.csv\"", "short.csv:3: the row has 1 of 2 cells"),
         ("scene = \"ball.toml\"", "[[gap]]\ntable = \"bytes.csv\"", "bytes.csv:2: the row is not UTF-8 text"),
+        (
+            "scene = \"ball.toml\"",
+            "[[gap]]\ntable = \"twice.csv\"\ndeviation = 1e-5",
+            "twice.csv:2: several columns are called gap",
+        ),
+        ("scene = \"ball.toml\"", "[[gap]]\ntable = \"semicolons.csv\"", "semicolons.csv:1: the names are not divided"),
+        ("scene = \"ball.toml\"", "[[gap]]\ntable = \"semicolons.csv\"", "by commas, and write decimals with a point"),
         ("scene = \"ball.toml\"", "[[slope]]\nangle = \"95 deg\"\nspeed = 1\ndeviation = 1", "no angle that can"),
         ("scene = \"ball.toml\"", "[[pull_off]]\nforce = \"2 mm\"\ndeviation = 1", "force in N"),
         ("scene = \"ball.toml\"", "", "cannot tell"),

@@ -1,6 +1,6 @@
 //! Columns of measurements: lists in the file, or of a CSV file beside it.
 
-use super::csv::Csv;
+use super::csv::{Csv, CsvFault};
 use crate::written::{measured_in, toml};
 use gyration_scene::Override;
 use gyration_scene::input::InputFile;
@@ -20,11 +20,7 @@ pub(super) fn settings(input: &InputFile, place: &[&str]) -> Vec<Override> {
 pub(super) fn csv(input: &mut InputFile, place: &[&str; 2], base: &Path) -> Option<Option<Csv>> {
     let place = [place[0], place[1], "table"];
     let Some(name) = input.take::<String>(&place) else { return Some(None) };
-    let found = Csv::read(base, &name);
-    found
-        .map(Some)
-        .map_err(|message| input.note(&place, message, "write the path, relative to this file, of a table"))
-        .ok()
+    Csv::read(base, &name).map(Some).map_err(|CsvFault { message, help }| input.note(&place, message, help)).ok()
 }
 
 /// A column: a list or a number in the file, or of its CSV file. The outer none: something is wrong with it.
@@ -38,8 +34,8 @@ pub(super) fn column(
         return match csv.and_then(|csv| csv.column(place[2])) {
             None => Some(None),
             Some(Ok(numbers)) => Some(Some(numbers)),
-            Some(Err(message)) => {
-                input.note(&[place[0], place[1], "table"], message, "write a number in SI units");
+            Some(Err(CsvFault { message, help })) => {
+                input.note(&[place[0], place[1], "table"], message, help);
                 None
             }
         };
