@@ -241,6 +241,16 @@ fn bad_files_are_refused_with_place_and_fix() {
             "[[gap]]\nset = { \"contact.0.repulsion.alpha\" = 2 }\ngap = 1e-3\ndeviation = 1e-5",
             "cannot be set for one table",
         ),
+        (
+            "scene = \"ball.toml\"\nset = { \"contact.0.repulsion.alpha\" = 2e4 }",
+            "",
+            "`contact.0.repulsion.alpha` is fitted as \"a\", and cannot be set too",
+        ),
+        (
+            "scene = \"ball.toml\"\nset = { \"body.0.density\" = 500 }",
+            "[fit.b]\nkey = \"body.ball.density\"",
+            "write it as the `start` of fit.b",
+        ),
         ("scene = \"ball.toml\"", "[fit.b]\nkey = \"body.ball.position.0\"", "begins at zero"),
         ("scene = \"ball.toml\"", "[[drop]]\ntable = \"drops.csv\"\nrebound = 1", "remove one of the two"),
         ("scene = \"bal.toml\"", "", "no such file"),

@@ -33,6 +33,13 @@ pub(super) fn keys_once(input: &mut InputFile, numbers: &[FreeNumber], template:
     }
     let is_part =
         |one: &str, other: &str| one == other || one.strip_prefix(other).is_some_and(|rest| rest.starts_with('.'));
+    for key in input.keys(&["set"]) {
+        // A law may be set as a whole, of which a number is then fitted.
+        if let Some(name) = seen.get(&template.by_index(&key)) {
+            let message = format!("`{key}` is fitted as \"{name}\", and cannot be set too");
+            input.note(&["set", &key], message, format!("write it as the `start` of fit.{name}, or do not fit it"));
+        }
+    }
     for kind in ExperimentKind::SECTIONS {
         let count = input.value(&[kind.word()]).and_then(|tables| tables.as_array().map(Vec::len)).unwrap_or(0);
         for index in (0..count).map(|index| index.to_string()) {
