@@ -161,6 +161,29 @@ fn a_linear_scale_gives_the_same_number_and_error() {
     assert!((one.error.unwrap() / other.error.unwrap() - 1.0).abs() < 1e-6);
 }
 
+/// The start, as a measurement of its own size, held a number back that is larger by far.
+#[test]
+fn a_linear_scale_finds_a_number_far_above_its_start() {
+    let table =
+        "[[gap]]\nset = { \"contact.0.adhesion.beta\" = 0 }\nkey = \"body.ball.density\"\nat = [500, 1000, 2000]\n";
+    let gaps = exact(&format!("{table}gap = [1, 1, 1]\ndeviation = 1\n"));
+    let fitted = |scale: &str, start: f64| {
+        fit(&format!(
+            "scene = \"ball.toml\"\n[fit.alpha]\nkey = \"contact.0.repulsion.alpha\"\nstart = {start:?}\n\
+             scale = \"{scale}\"\n{table}gap = {gaps:?}\ndeviation = 4e-5\n"
+        ))
+    };
+    let expected = fitted("log", 2e4).numbers[0].error.unwrap();
+    for start in [1e-4, 1.0, 10.0, 100.0] {
+        let found = fitted("linear", start);
+        println!("from {start}: {:?} after {} evaluations", found.numbers[0], found.evaluations);
+        // The start counts as a measurement with a deviation of 1e3 sizes, α is known to 3.5 %: 1e-9.
+        assert!((found.numbers[0].value / 40e3 - 1.0).abs() < 1e-6, "{:?}", found.numbers);
+        assert!((found.numbers[0].error.unwrap() / expected - 1.0).abs() < 1e-4, "{:?}", found.numbers);
+        assert!(found.undetermined.is_empty(), "{:?}", found.undetermined);
+    }
+}
+
 #[test]
 fn a_number_that_is_pushed_against_its_bound_is_said_to_lie_on_it() {
     let slopes = exact("[[slope]]\nangle = [0.1, 0.2, 0.3]\nspeed = [1, 1, 1]\ndeviation = 1\n");

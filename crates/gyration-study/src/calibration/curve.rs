@@ -1,6 +1,6 @@
 //! The fit as a drawing shows it: curves over the conditions, with the band in which they lie with 95 %.
 //!
-//!   m(x) ± 1.96 √(gᵀ C g),   g = ∂m/∂u
+//!   m(x) ± 1.96 √(gᵀ C g),   g = ∂m/∂p,   C the covariances of the numbers
 
 use super::predict::Prediction;
 use super::{Calibration, Experiment, ExperimentKind, Fitted};
@@ -50,7 +50,7 @@ impl Calibration {
             let (own, behind) = predicted.split_at(table.measured.len().min(predicted.len()));
             predicted = behind;
             match table.kind {
-                ExperimentKind::Dispersion => self.branches((table, own), fitted, &values),
+                ExperimentKind::Dispersion => self.branches((table, own), fitted),
                 _ => vec![self.curve((table, own), fitted, &values)],
             }
         };
@@ -77,29 +77,29 @@ impl Calibration {
                 Some(known) => known.clone(),
                 None => self.predicted(table, condition, values).ok()?,
             };
-            Some(self.point(condition, &predicted, fitted, values))
+            Some(point_at(condition, &predicted, fitted))
         };
         let points = conditions.into_par_iter().filter_map(point).collect();
         Curve { experiment: table.clone(), rows: (0..table.measured.len()).collect(), branch: None, points }
     }
 
     /// A curve a branch, through the waves that were measured, by |κ|.
-    fn branches(&self, (table, known): (&Experiment, &[Prediction]), fitted: &Fitted, values: &[f64]) -> Vec<Curve> {
+    fn branches(&self, (table, known): (&Experiment, &[Prediction]), fitted: &Fitted) -> Vec<Curve> {
         let branches: BTreeSet<usize> = table.waves.iter().map(|wave| wave.branch).collect();
         let curve = |branch: usize| {
             let mut rows: Vec<usize> =
                 (0..table.waves.len()).filter(|row| table.waves[*row].branch == branch).collect();
             rows.sort_by(|a, b| table.conditions[*a].total_cmp(&table.conditions[*b]));
-            let point = |row: &usize| Some(self.point(table.conditions[*row], known.get(*row)?, fitted, values));
+            let point = |row: &usize| Some(point_at(table.conditions[*row], known.get(*row)?, fitted));
             let points = rows.iter().filter_map(point).collect();
             Curve { experiment: table.clone(), rows, branch: Some(branch), points }
         };
         branches.into_iter().map(curve).collect()
     }
+}
 
-    fn point(&self, condition: f64, predicted: &Prediction, fitted: &Fitted, values: &[f64]) -> CurvePoint {
-        let slopes = nalgebra::DVector::from_vec(self.inward(&predicted.slopes, values, 1.0));
-        let variance = slopes.dot(&(&fitted.covariance * &slopes));
-        CurvePoint { condition, value: predicted.value, half_width: WIDTH * variance.max(0.0).sqrt() }
-    }
+fn point_at(condition: f64, predicted: &Prediction, fitted: &Fitted) -> CurvePoint {
+    let slopes = nalgebra::DVector::from_column_slice(&predicted.slopes);
+    let variance = slopes.dot(&(&fitted.covariance * &slopes));
+    CurvePoint { condition, value: predicted.value, half_width: WIDTH * variance.max(0.0).sqrt() }
 }

@@ -1,7 +1,8 @@
 //! The search for the least squares (`least_squares`).
 //!
 //! What it sees is u (`scale`) and the weighted residuals r = (m − y)/σ. A trial that cannot be computed counts as a
-//! bad one: the search then tries a shorter step.
+//! bad one: the search then tries a shorter step. Where a number comes out larger than what counts as its size, the
+//! search is made anew with that size: the start would hold the number back.
 
 use super::least_squares::{Minimum, Problem, SearchEnd, minimize};
 use super::predict::Prediction;
@@ -17,6 +18,9 @@ pub(super) const START: f64 = 1e3;
 /// By what part of itself a step of the search may still lessen χ². Rebounds have derivatives to 1e-6: where they leave
 /// something, the numbers found are off by some 1e-6 of what is left, in standard deviations.
 const TOLERANCE: f64 = 1e-10;
+
+/// Searches with sizes of their own at most: each of them passes some decades, and numbers have 616.
+const MOST_SIZES: usize = 200;
 
 /// Evaluations after which a search looks whether one measurement leads it astray.
 const DOUBT: usize = 30;
@@ -57,11 +61,29 @@ impl Calibration {
         self.rows().zip(self.values_of_rows(&start)).map(placed).collect()
     }
 
-    /// Searches, with so many evaluations at most if that is given.
+    /// Searches until no number outgrows its size, with so many evaluations at most a search if that is given; gives
+    /// the calibration with the sizes that were found.
     ///
     /// # Errors
     /// [`CalibrationError`].
-    pub(super) fn search(&self, patience: Option<usize>) -> Result<Found, CalibrationError> {
+    pub(super) fn settle(&self, patience: Option<usize>) -> Result<(Self, Found), CalibrationError> {
+        let (mut sized, mut evaluations) = (self.clone(), 0);
+        for _ in 0..MOST_SIZES {
+            let found = sized.search(patience)?;
+            evaluations += found.evaluations;
+            let mut is_outgrown = false;
+            for (number, value) in sized.numbers.iter_mut().zip(&found.values) {
+                is_outgrown |= number.scale.grow(*value);
+            }
+            if !is_outgrown {
+                return Ok((sized, Found { evaluations, ..found }));
+            }
+        }
+        Err(CalibrationError::Search("a number grows beyond all bounds".to_owned()))
+    }
+
+    /// Searches with the sizes that the numbers have.
+    fn search(&self, patience: Option<usize>) -> Result<Found, CalibrationError> {
         let predicted = self.predictions();
         if let Some(cause) = Interruption::due() {
             return Err(self.interrupted(cause, &[]));

@@ -1,7 +1,9 @@
-//! What the search varies in place of a number: its logarithm, or how many times it is as large as at the start;
-//! between bounds the logit of its place. All are without dimension.
+//! What the search varies in place of a number: its logarithm, or how many times its size it is; between bounds the
+//! logit of its place. All are without dimension.
 //!
-//!   v = p/|p₀| or ln p;   u = v, or ln((v − a)/(b − v)) between bounds a < v < b
+//!   v = p/s or ln p;   u = v, or ln((v − a)/(b − v)) between bounds a < v < b
+//!
+//! The size s is |p₀| of the start, |p| once that is found far larger, or the way between the bounds.
 
 use super::file;
 
@@ -9,7 +11,7 @@ use super::file;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scale {
     pub kind: file::Scale,
-    /// What counts as a whole change of it on a linear scale: its size at the start, or the way between its bounds.
+    /// s, a whole change of it on a linear scale.
     pub size: f64,
     /// The bounds of the number.
     pub bounds: Option<[f64; 2]>,
@@ -17,6 +19,10 @@ pub(super) struct Scale {
 
 /// Nearer to a bound than this part of the way between them, the number lies on it.
 const ON_BOUND: f64 = 1e-3;
+
+/// A number that is found larger than so many sizes has outgrown them. The pull of the start (`fit`) is meant for one
+/// of its size: u of some thousands would make it strong.
+const OUTGROWN: f64 = 2.0;
 
 impl Scale {
     /// u of a number.
@@ -47,6 +53,16 @@ impl Scale {
     pub fn slope(&self, number: f64) -> f64 {
         let value = self.value(number);
         self.bounds().map_or(1.0, |[low, high]| (value - low) * (high - value) / (high - low))
+    }
+
+    /// Takes the size of a number that has outgrown its own, if nothing bounds it; whether it has.
+    pub fn grow(&mut self, number: f64) -> bool {
+        let is_linear = self.kind == file::Scale::Linear && self.bounds.is_none();
+        let is_outgrown = is_linear && number.abs() > OUTGROWN * self.size;
+        if is_outgrown {
+            self.size = number.abs();
+        }
+        is_outgrown
     }
 
     /// Whether a number lies on a bound.
@@ -88,5 +104,18 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn only_what_nothing_bounds_outgrows_its_size() {
+        let size_of = |kind, bounds, number| {
+            let mut scale = Scale { kind, size: 4.0, bounds };
+            assert_eq!(scale.grow(number), scale.size > 4.0);
+            scale.size
+        };
+        assert_eq!(size_of(file::Scale::Linear, None, -9.0), 9.0);
+        assert_eq!(size_of(file::Scale::Linear, None, 7.0), 4.0);
+        assert_eq!(size_of(file::Scale::Linear, Some([0.0, 4.0]), 9.0), 4.0);
+        assert_eq!(size_of(file::Scale::Log, None, 9.0), 4.0);
     }
 }

@@ -64,6 +64,14 @@ struct Left {
     row: Option<usize>,
 }
 
+/// Measurements that agree once some are left out.
+struct Agreement {
+    suspect: Suspect,
+    others: Calibration,
+    /// The numbers that they tell.
+    values: Vec<f64>,
+}
+
 impl Calibration {
     /// The measurement that is wrong, if one alone is.
     pub(super) fn suspect(&self, known: &Leverage) -> Option<Suspect> {
@@ -85,7 +93,7 @@ impl Calibration {
         let mut candidates = largest(by_row.clone(), MOST);
         candidates.extend(largest(by_table.collect(), MOST));
         let agreement = |left| self.agreement_without(left, degrees_of_freedom, PATIENCE);
-        candidates.into_iter().find_map(agreement).map(|(suspect, _)| suspect)
+        candidates.into_iter().find_map(agreement).map(|agreement| agreement.suspect)
     }
 
     /// The row that is at odds with all others, which agree, if there is one among those of the largest `gains`. What
@@ -94,23 +102,23 @@ impl Calibration {
         let (most, patience) = IN_DOUBT;
         let candidates = largest(gains.iter().copied().zip(self.rows_to_leave()).collect(), most);
         candidates.into_iter().find_map(|left| {
-            let (suspect, values) = self.agreement_without(left, degrees_of_freedom, patience)?;
-            self.is_at_odds(left, &suspect, &values).then_some(suspect)
+            let agreement = self.agreement_without(left, degrees_of_freedom, patience)?;
+            self.is_at_odds(left, &agreement).then_some(agreement.suspect)
         })
     }
 
     /// Whether a row is farther off what the others tell than their numbers are known: r² > z²(1 + g C gᵀ), with C of
     /// the others.
-    fn is_at_odds(&self, left: Left, suspect: &Suspect, values: &[f64]) -> bool {
+    fn is_at_odds(&self, left: Left, Agreement { suspect, others, values }: &Agreement) -> bool {
         let (Some(row), experiment) = (left.row, &self.experiments[left.table]) else { return false };
         let deviation = experiment.deviations[row];
         let Ok(predicted) = self.prediction_of_row(experiment, row, values) else { return false };
-        let Ok(slopes) = self.without(left).weighted_slopes(values) else { return false };
+        let Ok(slopes) = others.weighted_slopes(values) else { return false };
         let count = values.len();
         let jacobian = DMatrix::from_row_iterator(slopes.len(), count, slopes.into_iter().flatten());
         // The start counts as a measurement.
         let normal = jacobian.tr_mul(&jacobian) + DMatrix::identity(count, count) / (START * START);
-        let own = DVector::from_vec(self.inward(&predicted.slopes, values, deviation));
+        let own = DVector::from_vec(others.inward(&predicted.slopes, values, deviation));
         let Some(solved) = normal.cholesky().map(|normal| normal.solve(&own)) else { return false };
         let off = (suspect.expected - suspect.measured) / deviation;
         off * off > AT_ODDS * AT_ODDS * (1.0 + own.dot(&solved))
@@ -123,13 +131,12 @@ impl Calibration {
         })
     }
 
-    /// What is left out and the numbers that the others tell, if they agree.
-    fn agreement_without(&self, left: Left, degrees_of_freedom: usize, patience: usize) -> Option<(Suspect, Vec<f64>)> {
+    /// What the measurements tell without some of them, if they agree.
+    fn agreement_without(&self, left: Left, degrees_of_freedom: usize, patience: usize) -> Option<Agreement> {
         let experiment = &self.experiments[left.table];
         let count = left.row.map_or(experiment.measured.len(), |_| 1);
         let degrees_of_freedom = degrees_of_freedom.checked_sub(count).filter(|freedom| *freedom > 0)?;
-        let others = self.without(left);
-        let Found { values, .. } = others.search(Some(patience)).ok()?;
+        let (others, Found { values, .. }) = self.without(left).settle(Some(patience)).ok()?;
         let fitted = others.values_of_rows(&values).into_iter().collect::<Result<Vec<_>, _>>().ok()?;
         let chi_squared = others.residuals_of(fitted).map(|residual| residual.weighted * residual.weighted).sum();
         if is_far(chi_squared, degrees_of_freedom) {
@@ -140,7 +147,7 @@ impl Calibration {
         let measured = experiment.measured[row];
         let table = experiment.place();
         let suspect = Suspect { table, row: left.row, chi_squared, degrees_of_freedom, measured, expected };
-        Some((suspect, values))
+        Some(Agreement { suspect, others, values })
     }
 
     fn without(&self, left: Left) -> Self {

@@ -7,10 +7,10 @@
 //! fitted: it is left out of C and of what is counted. A number has no error where that would be a factor of twenty or
 //! more, or where a direction that is not fitted, followed so far, moves it by more than its error.
 
-use super::fit::START;
+use super::fit::{Found, START};
 use super::predict::Prediction;
 use super::suspect::{Leverage, Suspect};
-use super::{Calibration, CalibrationError};
+use super::{Calibration, CalibrationError, FreeNumber};
 use gyration_threads::{Interruption, on_own_threads};
 use nalgebra::DMatrix;
 use serde::Serialize;
@@ -43,7 +43,7 @@ pub struct Fitted {
     pub ending: String,
     /// How often it computed all measurements.
     pub evaluations: usize,
-    /// C in u, without the directions in which nothing was fitted.
+    /// Covariances of the numbers, D C D with D = diag(dp/du), without the directions in which nothing was fitted.
     #[serde(skip)]
     pub(super) covariance: DMatrix<f64>,
     /// What the scene with these numbers gives in each row.
@@ -101,11 +101,16 @@ impl Calibration {
     /// [`CalibrationError`] if the search cannot begin or does not end.
     pub fn fit(&self) -> Result<Fitted, CalibrationError> {
         let interruption = Interruption::in_force().after(self.max_wall_time());
-        on_own_threads(|| interruption.within(|| self.fit_here()))
+        on_own_threads(|| {
+            interruption.within(|| {
+                let (sized, found) = self.settle(None)?;
+                sized.judge(found)
+            })
+        })
     }
 
-    fn fit_here(&self) -> Result<Fitted, CalibrationError> {
-        let found = self.search(None)?;
+    /// What is known of the numbers that a search has found, with the sizes that it found too.
+    fn judge(&self, found: Found) -> Result<Fitted, CalibrationError> {
         let values = found.values;
         // What would be measured there, of which slopes, residuals and the points of a drawing are made.
         let predictions = self.predictions_of_rows(&values).into_iter().collect::<Result<Vec<_>, _>>();
@@ -156,15 +161,14 @@ impl Calibration {
                 undetermined.push(self.undetermined(&along, &alone, &values));
             }
         }
-        let number = |(index, number): (usize, &super::FreeNumber)| {
-            let (_, slope) = number.scale.outward(number.scale.inward(values[index]));
-            FittedNumber {
-                name: number.name.clone(),
-                keys: number.keys.clone(),
-                value: values[index],
-                error: (!is_open(index)).then(|| error(index) * slope.abs()),
-                is_on_bound: number.scale.is_on_bound(values[index]),
-            }
+        let outward = |(number, value): (&FreeNumber, &f64)| number.scale.outward(number.scale.inward(*value)).1;
+        let outward: Vec<f64> = self.numbers.iter().zip(&values).map(outward).collect();
+        let number = |(index, number): (usize, &FreeNumber)| FittedNumber {
+            name: number.name.clone(),
+            keys: number.keys.clone(),
+            value: values[index],
+            error: (!is_open(index)).then(|| error(index) * outward[index].abs()),
+            is_on_bound: number.scale.is_on_bound(values[index]),
         };
         let correlation = |i: usize, j: usize| {
             let size = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
@@ -180,7 +184,7 @@ impl Calibration {
             undetermined,
             ending: found.ending,
             evaluations: found.evaluations,
-            covariance,
+            covariance: DMatrix::from_fn(count, count, |i, j| outward[i] * covariance[(i, j)] * outward[j]),
             predictions,
         })
     }
@@ -203,7 +207,7 @@ impl Calibration {
             .map(|(number, _)| number.name.as_str())
             .collect();
         // From u to relative changes.
-        let relative = |((number, value), part): ((&super::FreeNumber, &f64), &f64)| {
+        let relative = |((number, value), part): ((&FreeNumber, &f64), &f64)| {
             let size = if *value == 0.0 { number.scale.size } else { value.abs() };
             part * number.scale.outward(number.scale.inward(*value)).1 / size
         };
