@@ -17,6 +17,7 @@ pub(crate) mod file;
 mod fit;
 mod least_squares;
 mod nearby;
+mod number;
 mod predict;
 mod pull_off;
 mod read;
