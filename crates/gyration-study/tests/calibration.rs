@@ -277,6 +277,7 @@ fn bad_files_are_refused_with_place_and_fix() {
         ("scene = \"ball.toml\"", "[fit.b]\nkey = \"body.ball.position.0\"", "begins at zero"),
         ("scene = \"ball.toml\"", "[[drop]]\ntable = \"drops.csv\"\nrebound = 1", "remove one of the two"),
         ("scene = \"bal.toml\"", "", "no such file"),
+        ("scene = \"bal.toml\"", "", "write a path relative to this file"),
         ("scene = \"ball.toml\"", "[[gap]]\ngap = [1e-3]\ndeviation = 1e-5\ndeviatoin = 2", "deviatoin"),
         ("scene = \"ball.toml\"", "[[gap]]\ngap = [1e-3]\n", "deviation"),
         ("scene = \"ball.toml\"", "[[gap]]\ngap = \"3 kg\"\ndeviation = 1e-5", "kg"),

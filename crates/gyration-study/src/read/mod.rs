@@ -76,9 +76,10 @@ pub(crate) fn read(input: &mut InputFile) -> Read {
 }
 
 /// What to write for `scene`.
-const HOW_TO_NAME: &str = "write a path relative to the study's file, or a name of the gallery";
+const HOW_TO_NAME: &str = "write a path relative to this file, or a name of the gallery";
 
-/// The scene that a study names: a path relative to the study's file, or a name of the gallery; none if there is none.
+/// The scene that a study or calibration names: a path relative to its file, or a name of the gallery; none if there is
+/// none.
 pub(crate) fn scene(
     input: &mut InputFile,
     name: &str,
