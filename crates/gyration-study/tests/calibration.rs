@@ -249,7 +249,20 @@ fn bad_files_are_refused_with_place_and_fix() {
     std::fs::write(folder.path().join("bytes.csv"), b"gap, note\n1e-3, \xb5m\n").unwrap();
     std::fs::write(folder.path().join("twice.csv"), "# a remark\nnote, gap, note, gap\n, 1e-3, , 2e-3\n").unwrap();
     std::fs::write(folder.path().join("semicolons.csv"), "gap; deviation\n1,5; 0,1\n").unwrap();
+    let grains = format!("{BALL}copies = {{ grid = {{ count = [2, 1, 1], spacing = [1, 1, 1] }} }}\n");
+    std::fs::write(folder.path().join("grains.toml"), grains).unwrap();
     let cases = [
+        ("scene = \"grains.toml\"", "[[gap]]\ngap = 1e-3\ndeviation = 1e-5", "the body `ball` has `copies`"),
+        (
+            "scene = \"grains.toml\"",
+            "[[gap]]\nbody = \"ball\"\ngap = 1e-3\ndeviation = 1e-5",
+            "name a scene in which `ball` has no `copies`",
+        ),
+        (
+            "scene = \"grains.toml\"",
+            "[[gap]]\nbody = \"ball-0\"\ngap = 1e-3\ndeviation = 1e-5",
+            "the body `ball` has `copies`",
+        ),
         ("scene = \"ball.toml\"", "[[drop]]\nheight = 0.1\nrebound = 0.2\ndeviation = 1e-3", "row 1: 0.2 m cannot be"),
         ("scene = \"ball.toml\"", "[[slope]]\nangle = 0.1\nspeed = -0.2\ndeviation = 1e-3", "cannot be"),
         (

@@ -200,11 +200,17 @@ fn begins(input: &mut InputFile, place: &[&str; 2]) -> Option<bool> {
     Some(begins)
 }
 
-/// The body that is named, or the only one.
+/// The body that is named, or the only one; one that is written alone.
 fn body(input: &mut InputFile, place: &[&str; 2], resolved: Option<&Json>) -> Option<String> {
     let bodies = resolved?.get("body")?.as_array()?;
     let names: Vec<&str> = bodies.iter().filter_map(|body| body.get("name")?.as_str()).collect();
     let named: Option<String> = input.take(&[place[0], place[1], "body"]);
+    let meant = named.as_deref().or(if let [only] = names[..] { Some(only) } else { None });
+    if let Some(original) = meant.and_then(|meant| original_of(bodies, meant)) {
+        let message = format!("the body `{original}` has `copies`, and what is measured is of a body by itself");
+        input.note(place, message, format!("name a scene in which `{original}` has no `copies`"));
+        return None;
+    }
     match (named, names.as_slice()) {
         (Some(named), names) if names.contains(&named.as_str()) => Some(named),
         (Some(named), names) => {
@@ -218,4 +224,12 @@ fn body(input: &mut InputFile, place: &[&str; 2], resolved: Option<&Json>) -> Op
             None
         }
     }
+}
+
+/// The body with `copies` that a name is of, its own or that of a copy.
+fn original_of<'a>(bodies: &'a [Json], named: &str) -> Option<&'a str> {
+    let is_number = |rest: &str| rest.strip_prefix('-').is_some_and(|number| number.parse::<usize>().is_ok());
+    let copied = bodies.iter().filter(|body| body.get("copies").is_some_and(|copies| !copies.is_null()));
+    let mut originals = copied.filter_map(|body| body.get("name")?.as_str());
+    originals.find(|name| named.strip_prefix(name).is_some_and(|rest| rest.is_empty() || is_number(rest)))
 }
