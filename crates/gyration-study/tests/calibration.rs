@@ -391,13 +391,25 @@ fn measurement_that_keeps_the_search_from_its_end_is_named() {
 fn search_ends_with_the_wall_time_of_its_scene_and_says_where_it_was() {
     for seconds in (0..).map(|attempt| 0.25 * f64::from(1 << attempt)) {
         let early = misread(IN_METRES, &format!("[set]\n\"solver.max_wall_time\" = {seconds:?}"));
-        let CalibrationError::Interrupted { worst, .. } = &early else { panic!("{early:?}") };
-        println!("after {seconds} s: {worst}");
-        if worst.contains("row 2 of gap.0") {
+        let CalibrationError::Interrupted { reached, .. } = &early else { panic!("{early:?}") };
+        println!("after {seconds} s: {reached}");
+        if reached.contains("row 2 of gap.0") {
             return;
         }
-        assert_eq!(worst, "no measurement computed");
+        assert_eq!(reached, "before the measurements were computed once");
     }
+}
+
+/// Without a residual χ² was that of nothing, −0.
+#[test]
+fn search_that_has_computed_nothing_tells_no_sum_of_squares() {
+    let text = "scene = \"ball.toml\"\n[fit.alpha]\nkey = \"contact.0.repulsion.alpha\"\n\
+                [[gap]]\ngap = 4e-3\ndeviation = 1e-5\n";
+    let calibration = Calibration::parse("data.toml", text, folder().path()).unwrap();
+    let no_time = Interruption::default().after(Some(Duration::ZERO));
+    let message = no_time.within(|| calibration.fit()).unwrap_err().to_string();
+    assert!(message.contains("after solver.max_wall_time, before the measurements were computed once"), "{message}");
+    assert!(message.contains("fix: raise solver.max_wall_time") && !message.contains("χ²"), "{message}");
 }
 
 /// Wherever a search is given up, it says so: no fit comes of runs that did not end.

@@ -164,29 +164,29 @@ impl Calibration {
         self.experiments.iter().flat_map(|table| (0..table.measured.len()).map(move |row| (table, row)))
     }
 
-    /// The end of a search that was given up, with the residuals at the best point so far.
+    /// The end of a search that was given up, with the residuals at the best point so far; none before the first.
     pub(super) fn interrupted(&self, cause: Interrupted, known: &[f64]) -> CalibrationError {
         let farthest = self.rows().zip(known).max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()));
-        let worst = match farthest {
-            Some(((table, row), &residual)) if residual < BAD => {
-                format!(
-                    "row {} of {} farthest off, by {:.3e} of its deviations",
-                    row + 1,
-                    table.place(),
-                    residual.abs()
-                )
+        let why = match cause {
+            Interrupted::Raised => "by request",
+            Interrupted::Overdue => "after solver.max_wall_time",
+        };
+        let fix = match (cause, farthest) {
+            (Interrupted::Raised, _) => "let it run longer",
+            (Interrupted::Overdue, Some(_)) => {
+                "look at that measurement and its unit, raise solver.max_wall_time, or start the search nearer"
             }
-            _ => "no measurement computed".to_owned(),
+            (Interrupted::Overdue, None) => "raise solver.max_wall_time: computing every measurement once takes longer",
         };
-        let (why, fix) = match cause {
-            Interrupted::Raised => ("by request", "let it run longer"),
-            Interrupted::Overdue => (
-                "after solver.max_wall_time",
-                "look at that measurement and its unit, raise solver.max_wall_time, or start the search nearer",
-            ),
-        };
-        let chi_squared = known.iter().map(|residual| residual * residual).sum();
-        CalibrationError::Interrupted { why, chi_squared, worst, fix }
+        let reached = farthest.map_or_else(
+            || "before the measurements were computed once".to_owned(),
+            |((table, row), residual)| {
+                let chi_squared: f64 = known.iter().map(|residual| residual * residual).sum();
+                let (row, place, off) = (row + 1, table.place(), residual.abs());
+                format!("at χ² = {chi_squared:.4e}, with row {row} of {place} farthest off, by {off:.3e} deviations")
+            },
+        );
+        CalibrationError::Interrupted { why, reached, fix }
     }
 }
 

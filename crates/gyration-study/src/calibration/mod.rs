@@ -127,14 +127,12 @@ pub enum CalibrationError {
         reason: String,
     },
     /// The search was given up.
-    #[error("the search was given up {why}, at χ² = {chi_squared:.4e}, with {worst}\n  fix: {fix}")]
+    #[error("the search was given up {why}, {reached}\n  fix: {fix}")]
     Interrupted {
         /// After how long, or by whom.
         why: &'static str,
-        /// The least that it had found.
-        chi_squared: f64,
-        /// The measurement farthest off, and by how much.
-        worst: String,
+        /// The least χ² that it had found, and the measurement that was farthest off there.
+        reached: String,
         /// What to do.
         fix: &'static str,
     },
