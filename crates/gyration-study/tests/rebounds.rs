@@ -87,6 +87,28 @@ fn a_rebound_has_derivatives_by_contacts_and_by_other_numbers_and_on_a_slope() {
     }
 }
 
+#[test]
+fn a_body_that_cannot_fall_is_told_why() {
+    let cases = [
+        ("\"world.gravity\" = [0, 0, 0]", "the `world.gravity` of the scene is zero"),
+        ("\"world.gravity\" = [0, 0, 9.81]", "does not take it to its support `table`"),
+        ("\"body.b.pin\" = [0, 0, 0]", "\"b\" has a `pin`"),
+        ("\"body.b.keep\" = { line = [1, 0, 0] }", "it stays at its support, or its `keep` holds it"),
+    ];
+    for (set, expected) in cases {
+        let folder = tempfile::TempDir::new().unwrap();
+        std::fs::write(folder.path().join("body.toml"), scene("shape = { sphere = { radius = 0.05 } }")).unwrap();
+        let text = format!(
+            "scene = \"body.toml\"\nset = {{ {set} }}\n[fit.damping]\nkey = \"contact.0.damping.beta\"\n\
+             [[drop]]\nheight = 0.1\nrebound = 0.05\ndeviation = 1e-3\n"
+        );
+        let calibration = Calibration::parse("data.toml", &text, folder.path()).unwrap();
+        let message = calibration.predictions().unwrap_err().to_string();
+        println!("{message}");
+        assert!(message.contains("drop.0, row 1") && message.contains(expected), "{set}: {message}");
+    }
+}
+
 /// A body above a table.
 fn scene(body: &str) -> String {
     format!(

@@ -4,11 +4,12 @@ use super::scene::{body, normal};
 use super::{Calibration, Experiment, FreeNumber};
 use gyration::body::BodyKind;
 use gyration::dynamics::gap_to_supports;
+use gyration::model::Model;
 use gyration::tensor::Vec3;
 use gyration_scene::{Override, Scene};
 use gyration_sim::events::{APEX, Event};
 use gyration_sim::sensitivity::Sensitivities;
-use gyration_sim::{Monitor, Progress, Reason};
+use gyration_sim::{Monitor, Outcome, Progress, Reason};
 
 /// A support is level where its normal and the vertical differ by less than the root of twice this: what a speed along
 /// it would change is then of the order of rounding.
@@ -47,6 +48,7 @@ impl Drop {
         let (model, state) = (&first.built().model, &first.built().state);
         let index = body(model, experiment)?;
         let normal = normal(model, index)?;
+        check_fall(model, index, &normal)?;
         let motion = state.motion(model, index);
         if motion.velocity.gradient_rate.norm() > 0.0 {
             let key = format!("body.{}.angular_velocity", experiment.body);
@@ -87,7 +89,7 @@ impl Drop {
         let Some([gap, rates @ ..]) = found.values.last().map(Vec::as_slice) else {
             return Err(match limit.is_reached {
                 true => format!("its run takes more than {MOST_STEPS} steps"),
-                false => format!("it does not rebound: {}", found.outcome.in_words()),
+                false => self.why_none(&found.outcome),
             });
         };
         // A lift-off faster by dv has its apex higher by v dv/g and later by dv/g: a derivative at a fixed time is off
@@ -97,6 +99,21 @@ impl Drop {
         let slope = |row: &[f64]| row.first().copied().filter(|_| is_stationary);
         let slopes = found.derivatives.iter().map(|by_key| by_key.at_end().ok().and_then(slope)).collect();
         Ok((*gap, slopes))
+    }
+
+    /// Why a run had no apex.
+    fn why_none(&self, outcome: &Outcome) -> String {
+        let built = self.scene.built();
+        let held = match built.model.bodies[self.index].guide {
+            Some(_) => ", or its `keep` holds it",
+            None => "",
+        };
+        match outcome {
+            Outcome::Completed => {
+                format!("it does not rebound in {:.3} s: it stays at its support{held}", built.plan.end)
+            }
+            Outcome::AtRest { .. } | Outcome::Stopped(_) => format!("it does not rebound: {}", outcome.in_words()),
+        }
     }
 
     /// Whether it is a rigid body that rises straight up from planes at rest: its gap changes at the apex only if it
@@ -135,6 +152,28 @@ impl Drop {
             false => None,
         };
         Ok((value, calibration.numbers.iter().map(slope).collect()))
+    }
+}
+
+/// Whether gravity takes a body to its support.
+///
+/// # Errors
+/// Why it does not, in words.
+fn check_fall(model: &Model, index: usize, normal: &Vec3) -> Result<(), String> {
+    let body = &model.bodies[index];
+    if body.pin.is_some() {
+        return Err(format!("{:?} has a `pin`: a body that is dropped falls freely", model.name(index)));
+    }
+    if !body.has_inertia() {
+        return Err(format!("{:?} has no inertia: it does not rebound", model.name(index)));
+    }
+    if model.gravity.norm() == 0.0 {
+        return Err("the `world.gravity` of the scene is zero: nothing falls".to_owned());
+    }
+    let support = model.contacts_of(index).map(|contact| &model.supports[contact.support].name).next();
+    match support.filter(|_| model.gravity.dot(normal) >= 0.0) {
+        Some(support) => Err(format!("the `world.gravity` of the scene does not take it to its support `{support}`")),
+        None => Ok(()),
     }
 }
 
