@@ -396,12 +396,15 @@ impl Simulation {
     ///
     /// ``path`` is a new folder, replaced with ``force=True``; without it the recording lives in a temporary one, as
     /// long as it is in use. An earlier recording of this simulation ends. Raises ``FileError`` if nothing can be
-    /// written there.
+    /// written there; an earlier one then goes on.
     #[pyo3(signature = (path=None, *, force=false))]
     fn record(&mut self, path: Option<PathBuf>, force: bool) -> PyResult<()> {
         let options = RecordOptions { output: path, resume: false, force };
         let (path, kept) = place(&options, self.scene.inner.name())?;
-        self.stepper.stop_recording().map_err(errors::run)?;
+        // One that it takes the place of must not write there any more.
+        if self.recorded.take_if(|(own, _)| *own == path).is_some() {
+            self.stepper.stop_recording().map_err(errors::run)?;
+        }
         if path.symlink_metadata().is_ok() {
             remove(&path).map_err(errors::record)?;
         }

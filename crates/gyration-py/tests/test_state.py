@@ -190,6 +190,17 @@ def test_a_recording_begins_anywhere_and_ends_with_another_state(ball, tmp_path)
     assert list(gyration.Recording.open(tmp_path / "ball.gyr").time) == [0.4]
 
 
+def test_a_recording_that_cannot_begin_leaves_the_one_under_way_alone(ball, tmp_path):
+    simulation = gyration.Simulation(ball)
+    simulation.record(tmp_path / "ball.gyr")
+    simulation.advance(0.1)
+    (tmp_path / "file").write_text("no folder")
+    with pytest.raises(gyration.FileError):
+        simulation.record(tmp_path / "file" / "other.gyr")
+    simulation.advance(0.1)
+    assert len(simulation.recording) == 21
+
+
 def test_what_is_recorded_by_hand_is_what_a_run_records(tmp_path):
     scene = gyration.Scene.gallery("gripper").edit({"time.end": 0.1})
     simulation = gyration.Simulation(scene)

@@ -75,8 +75,10 @@ impl SteppedRun {
     /// [`RunError::Record`] if nothing can be written there.
     pub fn record(&mut self, scene: &Scene, provenance: &Provenance, path: &Path) -> Result<(), RunError> {
         let job = Job::of(scene, provenance);
+        // One that cannot be written leaves the one under way alone.
+        let recorder = Recorder(job.begin_by_hand(self.simulation.model(), path)?);
         self.stop_recording()?;
-        self.kept.recording = Some(Recorder(job.begin_by_hand(self.simulation.model(), path)?));
+        self.kept.recording = Some(recorder);
         let begun = self.simulation.sample_from_now(job.plan.sample, &mut self.kept)?;
         begun.map_err(RunError::at_start)?;
         self.flush()
