@@ -38,7 +38,7 @@ pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 /// (high + low) + change, rounded to the nearest number and what that lacks.
 #[inline(always)]
-pub(crate) fn add(high: f64, low: f64, change: f64) -> (f64, f64) {
+pub fn add(high: f64, low: f64, change: f64) -> (f64, f64) {
     let (sum, error) = two_sum(high, change);
     two_sum(sum, low + error)
 }

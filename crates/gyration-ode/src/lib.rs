@@ -56,7 +56,7 @@ mod trees;
 pub use gyration_blocks::{BlockMatrix, Components, Pattern};
 
 pub use events::{CrossingDirection, find_crossing};
-pub use extended::{Extended, ExtendedMut};
+pub use extended::{Extended, ExtendedMut, add as extended_sum};
 pub use integrator::Integrator;
 pub use memory::{MOST_COUNTED, Memory, MemoryError};
 pub use report::{Cause, Failure, ImplicitOrder, Limit, Method, Options, Statistics, StepReport, Stepper};

@@ -10,7 +10,7 @@
 //!
 //! Source: Berrut, Trefethen, *Barycentric Lagrange interpolation*, SIAM Review 46 (2004).
 
-use gyration_ode::Integrator;
+use gyration_ode::{Integrator, extended_sum};
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 
@@ -33,13 +33,6 @@ struct Piece {
     first: [Vec<f64>; 2],
     /// y_k − y_0 at the points, one after the other.
     values: Vec<f64>,
-}
-
-/// A sum of two numbers, and what it lacks.
-fn sum_and_lack(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let added = sum - a;
-    (sum, (a - (sum - added)) + (b - added))
 }
 
 fn angle(point: usize) -> f64 {
@@ -128,7 +121,7 @@ impl StepHistory {
         let [high, low] = &piece.first;
         for i in 0..n {
             let changes = weights.iter().enumerate().map(|(point, weight)| weight / sum * piece.values[point * n + i]);
-            (y[i], lack[i]) = sum_and_lack(high[i], low[i] + changes.sum::<f64>());
+            (y[i], lack[i]) = extended_sum(high[i], low[i], changes.sum());
         }
     }
 
