@@ -34,8 +34,10 @@ use nalgebra::{Complex, ComplexField as _, DMatrix, DVector};
 use std::cmp::Ordering;
 
 /// The tolerance of its runs, if that of the scene is not smaller; of a motion that goes less far than its bodies are
-/// long it is that part of it, but no less than the second.
-const RTOL: [f64; 2] = [1e-12, 1e-15];
+/// long that part of it.
+const RTOL: f64 = 1e-12;
+/// It is no less than that.
+const LEAST_RTOL: f64 = 1e-15;
 /// Misfits, as parts of how far a motion goes, below which an orbit is found.
 const FOUND: f64 = 1e-9;
 /// A motion that goes less far is rest, in scales.
@@ -43,7 +45,7 @@ const REST: f64 = 1e-14;
 /// Rates that differ by less than this part of the largest along an orbit are the same.
 const SAME: f64 = 1e-6;
 /// After so many periods what drives a scene is compared with what it was.
-const REPETITIONS: usize = 3;
+const REPETITIONS: [f64; 3] = [1.0, 2.0, 3.0];
 /// So many steps are tried, and each is halved so often.
 const MOST_STEPS: usize = 40;
 const MOST_HALVINGS: usize = 8;
@@ -121,14 +123,12 @@ pub enum NoOrbit {
     Driven,
     /// The period that is given is none of what depends on time.
     #[error(
-        "{period} s is no period of what in the scene depends on time: after {repetitions} of them rates along the \
-         motion are others, by {difference:.1e} of the largest"
+        "{period} s is no period of what in the scene depends on time: rates along the motion are others by then, by \
+         {difference:.1e} of the largest"
     )]
     NotPeriodic {
         /// The period \[s\].
         period: f64,
-        /// After how many of them.
-        repetitions: usize,
         /// The largest difference.
         difference: f64,
     },
@@ -280,45 +280,29 @@ impl OrbitSearch<'_> {
 
     /// Refuses a period that is none of what drives the motion.
     fn check_period(&self, trial: &mut Trial) -> Result<(), NoOrbit> {
-        for repetitions in 1..=REPETITIONS {
-            let difference = self.difference_later(trial, &[repetitions as f64 * trial.period])?;
-            if difference > SAME {
-                return Err(NoOrbit::NotPeriodic { period: trial.period, repetitions, difference });
-            }
-        }
-        Ok(())
+        let period = trial.period;
+        let difference = self.difference_later(trial, &REPETITIONS.map(|times| times * period))?;
+        if difference > SAME { Err(NoOrbit::NotPeriodic { period, difference }) } else { Ok(()) }
     }
 
     /// By how much the rates of the states of a motion over a period differ later, by times \[s\], from what they are:
-    /// the largest difference in coordinates, as a part of the largest rate.
+    /// the largest difference in scales, as a part of the largest rate; infinite where a state is then outside the
+    /// model.
     fn difference_later(&self, trial: &mut Trial, later: &[f64]) -> Result<f64, NoOrbit> {
-        let (mut largest, mut difference, mut left) = (0.0_f64, 0.0_f64, None);
+        let (mut largest, mut difference) = (0.0_f64, 0.0_f64);
         let plan = RunPlan { end: trial.period, ..*self.plan };
-        let start = trial.start.clone();
-        let chart = &mut trial.chart;
-        let ended = each_state(self.model, &start, &plan, |state| {
-            let mut compare = || {
-                let here = chart.rates(state.time, state)?;
-                largest = largest.max(chart.size(&here));
-                for later in later {
-                    let there = chart.rates(state.time + later, state)?;
-                    difference = difference.max(chart.size(&(there - &here)));
-                }
-                Ok::<(), Inadmissible>(())
-            };
-            if let Err(outside) = compare() {
-                left.get_or_insert(outside);
+        let Trial { start, chart, .. } = trial;
+        let ended = each_state(self.model, start, &plan, |state| {
+            // A state between the ends of a step may be outside of the model by itself.
+            let Ok(here) = chart.rates(state.time, state) else { return };
+            largest = largest.max(chart.size(&here));
+            for later in later {
+                let there = chart.rates(state.time + later, state);
+                difference = there.map_or(f64::INFINITY, |there| difference.max(chart.size(&(there - &here))));
             }
         });
         ended.map_err(|error| NoOrbit::Flow { period: plan.end, reason: error.to_string() })?;
-        // A state that is outside the model later is another one.
-        Ok(if left.is_some() {
-            f64::INFINITY
-        } else if largest > 0.0 {
-            difference / largest
-        } else {
-            0.0
-        })
+        Ok(if difference > 0.0 { difference / largest } else { 0.0 })
     }
 }
 
@@ -340,8 +324,7 @@ impl Trial {
         if extent < REST {
             return Err(NoOrbit::AtRest);
         }
-        let [usual, least] = RTOL;
-        let rtol = plan.tolerance.rtol.min((usual * extent.min(1.0)).max(least));
+        let rtol = plan.tolerance.rtol.min((RTOL * extent.min(1.0)).max(LEAST_RTOL));
         let tolerance = Tolerance { rtol, atol: plan.tolerance.atol.min(rtol) };
         let options = Options { order: ImplicitOrder::at_tolerance(tolerance.rtol), ..plan.options };
         let plan = RunPlan { end: period, tolerance, options, ..*plan };
