@@ -39,8 +39,17 @@ pub(super) struct Unfolded<'a> {
     slips: [Mat34; 2],
     /// −W M.
     viscous: [Mat34; 2],
-    /// W_E and −W_E M of a damping that is one-sided.
-    opening: Option<([Mat34; 2], [Mat34; 2])>,
+    /// Of a damping that is one-sided.
+    opening: Option<UnfoldedOpening<'a>>,
+}
+
+/// What makes a damping one-sided, with its matrices whole.
+struct UnfoldedOpening<'a> {
+    of: &'a Opening,
+    /// W_E.
+    slips: [Mat34; 2],
+    /// Q_E = −W_E M.
+    loads: [Mat34; 2],
 }
 
 /// A side of a mediator on its way from d^−ν′, whatever changes.
@@ -132,8 +141,10 @@ fn add_product(factor: f64, loads: &[Mat34; 2], slopes: &mut [[Mat12; 2]; 2]) {
 impl<'a> Unfolded<'a> {
     pub fn new(of: &'a Mediator) -> Self {
         let whole = |rows: &_| of.directions.matrix(rows);
-        let opening = of.opening.as_ref().map(|opening| {
-            (opening.slips.each_ref().map(whole), opening.resisted.each_ref().map(|rows| -of.directions.matrix(rows)))
+        let opening = of.opening.as_ref().map(|opening| UnfoldedOpening {
+            of: opening,
+            slips: opening.slips.each_ref().map(whole),
+            loads: opening.resisted.each_ref().map(|rows| -whole(rows)),
         });
         Self {
             of,
@@ -152,7 +163,7 @@ impl<'a> Unfolded<'a> {
     /// G is 12×3; the B_k lie in the image of Π. A bound takes σ of that, and σ g Q_i ⊗ Q_j beside, Q = (f | M) without
     /// it; one-sided damping has −(s′ − 1)/K Q_i ⊗ Q_j beside, Q = (f | M) of E.
     pub fn add_by_rates(&self, normal: &Vec3, slopes: &mut [[Mat12; 2]; 2]) {
-        let Mediator { kind, moments, system, bound, opening, .. } = self.of;
+        let Mediator { kind, moments, system, bound, .. } = self.of;
         let projector = projector(*kind, normal);
         let factor = bound.as_ref().map_or(1.0, Bound::factor);
         let pressed = self.pressed.each_ref().map(|pressed| {
@@ -168,8 +179,8 @@ impl<'a> Unfolded<'a> {
         if let Some(bound) = bound {
             add_product(bound.by_motion(), &self.viscous, slopes);
         }
-        if let (Some(opening), Some((_, loads))) = (opening, &self.opening) {
-            add_product(opening.by_motion(), loads, slopes);
+        if let Some(opening) = &self.opening {
+            add_product(opening.of.by_motion(), &opening.loads, slopes);
         }
     }
 
@@ -181,7 +192,7 @@ impl<'a> Unfolded<'a> {
         places: [&Mat34; 2],
         change: &Change,
     ) -> [Mat34; 2] {
-        let Mediator { kind, motion, moments: weights, system, bound, opening, .. } = self.of;
+        let Mediator { kind, motion, moments: weights, system, bound, .. } = self.of;
         let (mut right, mut lost, mut resistances, mut mean) = (Vec3::zeros(), 0.0, [0.0; 2], 0.0);
         let changed = [0, 1].map(|side| {
             let moments = self.moments_along(state, side, &slopes[side], places[side], change);
@@ -191,10 +202,10 @@ impl<'a> Unfolded<'a> {
             let turned = change.normal * rising.transpose()
                 + state.placed.plane.normal * rates.tr_mul(&change.normal).transpose();
             let mut slip = sign * turned - combined(motion, &fields);
-            if let Some(opening) = opening {
-                let mut tilted = -combined(opening.motion(), &fields);
+            if let Some(opening) = &self.opening {
+                let mut tilted = -combined(opening.of.motion(), &fields);
                 if side == 0 {
-                    slip += opening.by() * uniform(&change.normal);
+                    slip += opening.of.by() * uniform(&change.normal);
                     tilted += uniform(&change.normal);
                 }
                 let change = SideChange { side, slip: &slip, tilted: &tilted, moments: &moments };
@@ -211,8 +222,8 @@ impl<'a> Unfolded<'a> {
         });
         let motion = system.solve(&right);
         let viscous = [0, 1].map(|side| combined(&motion, &self.pressed[side]) - changed[side]);
-        if let Some(opening) = opening {
-            return [0, 1].map(|side| viscous[side] + self.opened(opening, side, mean));
+        if let Some(opening) = &self.opening {
+            return [0, 1].map(|side| viscous[side] + opening.opened(side, mean));
         }
         let Some(bound) = bound else { return viscous };
         let own = self.of.resistances();
@@ -259,18 +270,18 @@ impl<'a> Unfolded<'a> {
 impl Unfolded<'_> {
     /// What the change of one side adds to K δw; the slips that change being those of the mediator, (s − w) δK is in
     /// it.
-    fn mean_along(&self, opening: &Opening, change: &SideChange) -> f64 {
+    fn mean_along(&self, opening: &UnfoldedOpening, change: &SideChange) -> f64 {
         let SideChange { side, slip, tilted, moments } = change;
-        let Some((slips, _)) = &self.opening else { return 0.0 };
-        let (own, weight) = (&slips[*side], &self.of.moments[*side]);
+        let (own, weight) = (&opening.slips[*side], &self.of.moments[*side]);
         let (swept, pressed, turned) = (own * *moments, own * weight, *tilted * weight);
         let product = turned.dot(&self.slips[*side]) + pressed.dot(slip) + swept.dot(&self.slips[*side]);
-        product - (opening.speed + opening.shift.by) * (2.0 * turned.dot(own) + swept.dot(own))
+        product - (opening.of.speed + opening.of.shift.by) * (2.0 * turned.dot(own) + swept.dot(own))
     }
+}
 
+impl UnfoldedOpening<'_> {
     /// (s′ − 1) Q_E δw on a side, given K δw.
-    fn opened(&self, opening: &Opening, side: usize, mean: f64) -> Mat34 {
-        let factor = opening.shift.slope * mean / opening.resistance;
-        self.opening.as_ref().map_or_else(Mat34::zeros, |(_, loads)| factor * loads[side])
+    fn opened(&self, side: usize, mean: f64) -> Mat34 {
+        self.of.shift.slope * mean / self.of.resistance * self.loads[side]
     }
 }
