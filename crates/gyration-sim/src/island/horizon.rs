@@ -43,7 +43,7 @@ pub(crate) fn horizon(
     (usual, longest): (f64, f64),
 ) -> f64 {
     let mut step = next_kink(model, time).map_or(longest, |kink| longest.min(kink - time));
-    for frequency in signals(model).map(Signal::highest_frequency).filter(|frequency| *frequency > 0.0) {
+    for frequency in model.signals().map(Signal::highest_frequency).filter(|frequency| *frequency > 0.0) {
         step = step.min(DRIVE_PART / frequency);
     }
     let anchors = model.springs().iter().filter_map(Spring::anchor);
@@ -149,15 +149,8 @@ fn before_meeting(approach: &Approach, (range, radii): (f64, [f64; 2]), longest:
     approach.bent(approach.straight(nearest) - within).min(longest)
 }
 
-/// What drives bodies and joints, and the flow around them.
-fn signals(model: &Model) -> impl Iterator<Item = &Signal> {
-    let drives = model.bodies.iter().filter_map(|body| Some(body.contraction()?.signal()));
-    let drives = drives.chain(model.joints().iter().filter_map(|joint| joint.motor.signal()));
-    drives.chain(model.fluid.iter().flat_map(|fluid| fluid.signals()))
-}
-
 /// The first time after this one at which a couple, a drive or the flow has a kink [s].
 pub(crate) fn next_kink(model: &Model, time: f64) -> Option<f64> {
     let couples = model.bodies.iter().filter_map(|body| body.affine()?.couple.as_ref()?.next_kink(time));
-    couples.chain(signals(model).filter_map(|signal| signal.next_kink(time))).min_by(f64::total_cmp)
+    couples.chain(model.signals().filter_map(|signal| signal.next_kink(time))).min_by(f64::total_cmp)
 }

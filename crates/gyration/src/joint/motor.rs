@@ -122,13 +122,9 @@ impl Motor {
         matches!(self.drive, Some(Drive::Feedback(_)))
     }
 
-    /// Whether its drive is another one at another time.
-    pub fn uses_time(&self) -> bool {
-        match &self.drive {
-            Some(Drive::Feedback(expression)) => expression.uses(TIME),
-            Some(Drive::Signal(signal)) => !signal.is_steady(),
-            None => false,
-        }
+    /// Whether t stands in the expression that drives it.
+    pub fn feels_time(&self) -> bool {
+        matches!(&self.drive, Some(Drive::Feedback(expression)) if expression.uses(TIME))
     }
 
     /// By how much u of a hinge jumps as its angle goes from π to −π at this rate and time; none where it goes on

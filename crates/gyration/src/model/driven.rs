@@ -2,10 +2,9 @@
 
 use super::Model;
 use crate::body::Body;
-use crate::load::{Couple, FieldOfForce, OwnFriction, PointForce, Potential, Spring};
+use crate::load::{Couple, FieldOfForce, OwnFriction, Spring};
 use crate::signal::Signal;
 use crate::support::SupportMotion;
-use std::sync::Arc;
 
 impl Model {
     /// Whether a force, a drive or a flow is another one at another time, or something to which bodies are attached
@@ -17,26 +16,30 @@ impl Model {
         let solid = self.solid_supports.iter().map(|support| &support.motion);
         let springs = self.springs().iter().filter_map(Spring::anchor);
         let mut anchors = springs.chain(self.joints().iter().map(|joint| &joint.anchor));
-        let mut flows = self.fluid.iter().flat_map(|fluid| fluid.signals());
         supports.chain(solid).any(SupportMotion::oscillates)
             || anchors.any(|anchor| !anchor.motion.is_fixed())
-            || flows.any(|signal| !signal.is_steady())
-            || self.joints().iter().any(|joint| joint.motor.uses_time())
+            || self.signals().any(|signal| !signal.is_steady())
+            || self.joints().iter().any(|joint| joint.motor.feels_time())
             || self.bonds().iter().any(|bond| bond.law.as_ref().is_some_and(|law| !law.is_energy()))
-            || self.bodies.iter().any(|body: &Arc<Body>| body.is_driven())
+            || self.bodies.iter().any(|body| body.feels_time())
+    }
+
+    /// What drives bodies and joints, and the flow around them.
+    pub fn signals(&self) -> impl Iterator<Item = &Signal> {
+        let drives = self.bodies.iter().filter_map(|body| Some(body.contraction()?.signal()));
+        let drives = drives.chain(self.joints().iter().filter_map(|joint| joint.motor.signal()));
+        drives.chain(self.fluid.iter().flat_map(|fluid| fluid.signals()))
     }
 }
 
 impl Body {
-    /// Whether a force of its own or its contraction is prescribed in time.
-    fn is_driven(&self) -> bool {
-        let contraction = self.contraction().map(|contraction| contraction.signal());
+    /// Whether a couple or a force of its own is another one at another time.
+    fn feels_time(&self) -> bool {
         let couple = self.affine().and_then(|affine| affine.couple.as_ref());
         let forces = self.own.body_force.iter().map(|force| force.field());
-        let mut forces = forces.chain(self.own.point_forces.iter().map(|force: &PointForce| &force.field));
-        contraction.is_some_and(|signal: &Signal| !signal.is_steady())
-            || couple.is_some_and(|couple| matches!(couple, Couple::Table(_)))
-            || self.own.potential.as_deref().is_some_and(|potential: &Potential| !potential.is_energy())
+        let mut forces = forces.chain(self.own.point_forces.iter().map(|force| &force.field));
+        couple.is_some_and(|couple| matches!(couple, Couple::Table(_)))
+            || self.own.potential.as_ref().is_some_and(|potential| !potential.is_energy())
             || forces.any(FieldOfForce::uses_time)
             || self.own.frictions.iter().any(OwnFriction::uses_time)
     }
