@@ -176,6 +176,30 @@ fn a_cell_rests_under_its_stress_or_is_told_to_be_floppy() {
     assert_near(&found["rest"]["force"][0][0], 4.0);
     let pressed = json(&sandbox, &[&relax[..], &["--set", "lattice.pressure=-6"]].concat());
     assert_near(&pressed["rest"]["cell"][0][0], 0.95);
+    // A step of the search lets the soft discs of this sheet overlap, and is halved.
+    let scene = r#"
+        world = { gravity = [0, 0, 0] }
+        time = { end = 1, sample = 1 }
+        [lattice]
+        cell = [[0.1, 0, 0], [0.05, 0.0866, 0]]
+        relax = ["granules", "cell"]
+        pressure = 10
+        [[contact]]
+        between = ["a", "a"]
+        repulsion = { alpha = 300, nu = 4, d0 = 0.002 }
+        reach = 0.02
+        [[body]]
+        name = "a"
+        shape = { sphere = { radius = 0.048 } }
+        density = 700
+        affine = { material = { st_venant_kirchhoff = { lambda = 4000, mu = 3000 } } }
+        potential = "20*z^2"
+    "#;
+    sandbox.write("sheet.toml", scene);
+    let sheet = json(&sandbox, &["sheet.toml", "--points", "2"]);
+    // The search for the cell ends where steps are 1e-13 of it, and stiffness is 1e4 times the pressure.
+    let stress = &sheet["rest"]["stress"];
+    assert!([0, 1].iter().all(|i| (stress[*i][*i].as_f64().unwrap() + 10.0).abs() < 1e-8), "{stress}");
     // A sheet of nothing but squares can be sheared.
     let square = STRING.replace("[[1, 0, 0]]", "[[1, 0, 0], [0, 1, 0]]\nrelax = [\"cell\"]");
     let across = "[[spring]]\nbetween = [\"a\", \"a\"]\ncell = [0, 1, 0]\nstiffness = 40\nrest_length = 0.8\n";

@@ -6,9 +6,9 @@
 //! feels, with a derivative by differences, each rest sought from the last. Where a component has no stiffness nothing
 //! holds it.
 
-use super::NoBands;
 use super::doubt::MatrixDoubt;
 use super::strained::StrainedCell;
+use super::{NoBands, NoRest};
 use gyration::lattice::Lattice;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::CellLoad;
@@ -84,7 +84,9 @@ impl StrainedCell {
                         x = next;
                         break found;
                     }
-                    Err(NoBands::Rest(_)) if halvings < MOST_HALVINGS => step *= 0.5,
+                    Err(NoBands::Rest(reason)) if reason != NoRest::Interrupted && halvings < MOST_HALVINGS => {
+                        step *= 0.5
+                    }
                     Err(error) => return Err(error),
                 }
                 halvings += 1;
