@@ -401,8 +401,9 @@ impl Simulation {
     fn record(&mut self, path: Option<PathBuf>, force: bool) -> PyResult<()> {
         let options = RecordOptions { output: path, resume: false, force };
         let (path, kept) = place(&options, self.scene.inner.name())?;
-        // One that it takes the place of must not write there any more.
-        if self.recorded.take_if(|(own, _)| *own == path).is_some() {
+        // One that it takes the place of must not write there any more, however its folder is called.
+        let is_own = |own: &PathBuf| matches!((own.canonicalize(), path.canonicalize()), (Ok(a), Ok(b)) if a == b);
+        if self.recorded.take_if(|(own, _)| is_own(own)).is_some() {
             self.stepper.stop_recording().map_err(errors::run)?;
         }
         if path.symlink_metadata().is_ok() {
