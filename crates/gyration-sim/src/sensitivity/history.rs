@@ -3,7 +3,8 @@
 //! The interpolant of a step of the run is a polynomial of degree eight at most, and is known after that step only. It
 //! is kept by what its values at ten Chebyshev points are beside the first one, from which it comes back to rounding:
 //!
-//!   y(θ) − y_0 = Σ w_k (y_k − y_0)/(θ − θ_k) / Σ w_k/(θ − θ_k),   θ_k = ½ − ½ cos (k + ½)π/10,   w_k = (−1)^k sin (k + ½)π/10
+//!   y(θ) − y_0 = Σ w_k (y_k − y_0)/(θ − θ_k) / Σ w_k/(θ − θ_k)
+//!   θ_k = ½ − ½ cos (k + ½)π/10,   w_k = (−1)^k sin (k + ½)π/10
 //!
 //! Like the run it has twice the digits: within a short impact forces know a gap that is 1e-7 of the places, and so
 //! does what grows there.

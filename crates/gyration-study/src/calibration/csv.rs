@@ -30,8 +30,8 @@ impl Csv {
     /// Reads a file that stands in a folder.
     ///
     /// # Errors
-    /// [`CsvFault`]: it cannot be read, its cells are not divided by commas, or a row is longer or shorter than the line
-    /// of names.
+    /// [`CsvFault`]: it cannot be read, its cells are not divided by commas, or a row is longer or shorter than the
+    /// line of names.
     pub fn read(folder: &Path, file: &str) -> Result<Self, CsvFault> {
         let bytes = gyration_files::read(&folder.join(file)).map_err(|error| CsvFault {
             message: format!("{file} cannot be read: {}", in_words(&error)),
