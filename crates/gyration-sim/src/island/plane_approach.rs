@@ -121,8 +121,8 @@ impl<'a> PlaneApproach<'a> {
 
 /// A time just before the root in (0, longest] of a concave function; `longest` if there is none, 0 if it starts below.
 ///
-/// Binary fractions of a second alone are tried, so that a root within two longest times is the same number: how long
-/// a run goes on must leave no trace in its steps.
+/// Binary fractions of a second alone are tried, so that a root within two longest times is the same number: how long a
+/// run goes on must leave no trace in its steps.
 pub(crate) fn first_root(longest: f64, function: impl Fn(f64) -> f64) -> f64 {
     if function(0.0) <= 0.0 {
         return 0.0;

@@ -14,8 +14,8 @@ use gyration_ode::Integrator;
 use gyration_record::RecordError;
 use gyration_scene::Scene;
 
-/// A tangent that is lost this near to the end of a run that stopped, as a part of its time, is lost by that: a field is
-/// singular there.
+/// A tangent that is lost this near to the end of a run that stopped, as a part of its time, is lost by that: a field
+/// is singular there.
 const AT_THE_END: f64 = 1.0 - 1e-12;
 
 /// A run, its tangent, and the derivatives so far.

@@ -60,8 +60,8 @@ fn short_impacts_are_seen() {
 }
 
 /// Without losses the energy is that of the start, and so is its derivative. Within the impact of a corner, at a gap of
-/// 1e-7 of the places, neighbours grow apart some 1e6 times and come together again: what is left has the digits that the
-/// growth tells, and no more with a smaller rtol than 1e-9.
+/// 1e-7 of the places, neighbours grow apart some 1e6 times and come together again: what is left has the digits that
+/// the growth tells, and no more with a smaller rtol than 1e-9.
 #[test]
 fn energy_behind_the_impact_of_a_corner_changes_as_at_the_start() {
     let text = r#"

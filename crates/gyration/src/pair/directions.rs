@@ -5,8 +5,8 @@ use super::{Mat4, Mat34, Vec4};
 use crate::contact::LawKind;
 use crate::tensor::Vec3;
 
-/// The rows of a 3×4 matrix in the image of Π along its directions: of damping n, and nothing behind it, of friction
-/// t₁ and t₂.
+/// The rows of a 3×4 matrix in the image of Π along its directions: of damping n, and nothing behind it, of friction t₁
+/// and t₂.
 pub(super) type Rows = [Vec4; 2];
 
 /// No row.
