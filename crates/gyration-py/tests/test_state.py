@@ -197,7 +197,7 @@ def test_a_recording_that_cannot_begin_leaves_the_one_under_way_alone(ball, tmp_
     (tmp_path / "file").write_text("no folder")
     with pytest.raises(gyration.FileError):
         simulation.record(tmp_path / "file" / "other.gyr")
-    simulation.advance(0.1)
+    simulation.advance(0.2)
     assert len(simulation.recording) == 21
 
 
