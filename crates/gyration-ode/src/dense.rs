@@ -23,14 +23,24 @@ impl Integrator {
     ///
     /// # Panics
     /// As [`Integrator::interpolate`].
-    pub fn interpolate_extended(&self, t: f64, y: &mut [f64], w: &mut [f64], mut lack: Option<&mut [f64]>) {
+    pub fn interpolate_extended(&self, t: f64, y: &mut [f64], w: &mut [f64], lack: Option<&mut [f64]>) {
+        let (start, end) = (self.other.t, self.current.t);
+        let part = if t >= end { 1.0 } else { (t - start) / self.last_size };
+        self.interpolate_part(part, y, w, lack);
+    }
+
+    /// The same at a part θ of the last step: a short step at a late time has points that no time tells apart.
+    ///
+    /// # Panics
+    /// As [`Integrator::interpolate`].
+    pub fn interpolate_part(&self, theta: f64, y: &mut [f64], w: &mut [f64], mut lack: Option<&mut [f64]>) {
         let (start, end) = (&self.other, &self.current);
         let n = self.layout.dimension;
         assert!(y.len() == n && w.len() == end.u.len() - n, "interpolate needs room for y and for w");
         // At the ends the values are copied, not computed: they are exact.
-        let exact = if self.last == LastStep::None || t >= end.t {
+        let exact = if self.last == LastStep::None || theta >= 1.0 {
             Some(end)
-        } else if t <= start.t {
+        } else if theta <= 0.0 {
             Some(start)
         } else {
             None
@@ -43,7 +53,6 @@ impl Integrator {
             }
             return;
         }
-        let theta = (t - start.t) / self.last_size;
         let mut put = |i: usize, change: f64| {
             let (high, low) = add(start.u[i], start.low[i], change);
             match y.get_mut(i) {

@@ -328,9 +328,10 @@ impl<'a> Tangent<'a> {
         let model = self.model;
         let mut nodes = Nodes::default();
         for (node, part) in NODES.iter().enumerate() {
-            self.at.time = if node + 1 == STAGES { to } else { from + part * (to - from) };
+            let later = part * (to - from);
+            self.at.time = if node + 1 == STAGES { to } else { from + later };
             self.at.low.resize(self.at.bodies.len(), 0.0);
-            self.history.at(self.at.time, &mut self.at.bodies, &mut self.at.low);
+            self.history.at(from, later, &mut self.at.bodies, &mut self.at.low);
             self.project();
             let mut slopes = BlockMatrix::new(model.blocks());
             // A step may end at a kink, behind which the model is another one.
