@@ -1,10 +1,12 @@
 //! The chunks of a recording as they are read: whole, held against their checksums, the last one of each array kept.
 //!
-//! Whoever goes through a recording row by row would otherwise read each chunk as often as it has rows.
+//! Whoever goes through a recording row by row would otherwise read each chunk as often as it has rows. What is read
+//! belongs to the folder that was opened: one that has taken its place since is told, not read.
 
 use crate::array::{ArrayInfo, DataType};
 use crate::disk;
 use crate::error::RecordError;
+use crate::identity::Identity;
 use crate::zarr;
 use gyration_files::check;
 use std::collections::BTreeMap;
@@ -13,8 +15,12 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The chunk of each array that was read last, by its number. Rows that a recording counts do not change in it.
-#[derive(Clone, Default)]
-pub(crate) struct LastChunks(Arc<Mutex<BTreeMap<String, (usize, Elements)>>>);
+#[derive(Clone)]
+pub(crate) struct LastChunks {
+    /// The folder that they are in; none where that cannot be told.
+    folder: Option<Identity>,
+    last: Arc<Mutex<BTreeMap<String, (usize, Elements)>>>,
+}
 
 /// The elements of a chunk, with room for all its rows.
 type Elements = Arc<Vec<u8>>;
@@ -71,16 +77,31 @@ impl fmt::Debug for LastChunks {
 }
 
 impl LastChunks {
+    /// Of the recording that stands in a folder now, of which none is read yet.
+    pub(crate) fn of(folder: &Path) -> Self {
+        Self { folder: Identity::of(folder), last: Arc::default() }
+    }
+
+    /// What was just read in the folder, if that is still the one.
+    ///
+    /// # Errors
+    /// `Replaced`; otherwise that of the reading.
+    pub(crate) fn own<T>(&self, folder: &Path, read: Result<T, RecordError>) -> Result<T, RecordError> {
+        let now = Identity::of(folder);
+        let is_other = now.is_some() && self.folder.is_some() && now != self.folder;
+        if is_other { Err(RecordError::Replaced { path: folder.to_path_buf() }) } else { read }
+    }
+
     /// The elements of a chunk of numbers of the recording in `folder`.
     ///
     /// # Errors
-    /// `Truncated`, `Corrupt`, `Io`.
+    /// `Replaced`, `Truncated`, `Corrupt`, `Io`.
     pub(crate) fn read(&self, folder: &Path, array: &ArrayInfo, index: usize) -> Result<Elements, RecordError> {
-        let last = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let last = || self.last.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, elements)) = last().get(&array.name).filter(|(held, _)| *held == index) {
             return Ok(Arc::clone(elements));
         }
-        let elements = Arc::new(read_chunk(array, &array.chunk_path(folder, index))?);
+        let elements = Arc::new(self.own(folder, read_chunk(array, &array.chunk_path(folder, index)))?);
         last().insert(array.name.clone(), (index, Arc::clone(&elements)));
         Ok(elements)
     }

@@ -57,6 +57,12 @@ pub enum RecordError {
         /// The recording.
         path: PathBuf,
     },
+    /// Another recording stands in the place of the one that was opened.
+    #[error("another recording has taken the place of {path} since it was opened: open it again")]
+    Replaced {
+        /// The recording.
+        path: PathBuf,
+    },
     /// A file of the recording is shorter or longer than it must be.
     #[error("{path} is damaged: {found} bytes where {expected} belong")]
     Truncated {

@@ -27,6 +27,7 @@ mod event;
 pub mod export;
 mod file;
 mod fnv;
+mod identity;
 mod layout;
 mod memory;
 mod metadata;

@@ -48,11 +48,13 @@ impl Recording {
     /// # Errors
     /// `Missing`, `NotARecording`, `Version`, `Io`.
     pub fn open(path: &Path) -> Result<Self, RecordError> {
-        Ok(Self::of_group(path, disk::read_group(path)?))
+        let chunks = LastChunks::of(path);
+        Ok(Self { path: path.to_path_buf(), group: disk::read_group(path)?, source: Source::Disk(chunks) })
     }
 
+    /// The recording at a path of which the metadata are known.
     pub(crate) fn of_group(path: &Path, group: Group) -> Self {
-        Self { path: path.to_path_buf(), group, source: Source::Disk(LastChunks::default()) }
+        Self { path: path.to_path_buf(), group, source: Source::Disk(LastChunks::of(path)) }
     }
 
     /// The recording that a disk would hold of some rows, without entries of samples; `name` stands in errors. It has
@@ -83,20 +85,27 @@ impl Recording {
     /// The caller's bytes of the last checkpoint, from which a resumed run would go on.
     ///
     /// # Errors
-    /// `Corrupt`, `Io`.
+    /// `Replaced`, `Corrupt`, `Io`.
     pub fn checkpoint(&self) -> Result<Vec<u8>, RecordError> {
-        let file = self.path.join(disk::CHECKPOINT);
-        Ok(Checkpoint::decode(&disk::read(&file)?, &file)?.state)
+        Ok(self.read_checkpoint()?.state)
     }
 
     /// Whether a crash came between the last rows and the checkpoint that belongs to them: then the checkpoint is an
     /// earlier one.
     ///
     /// # Errors
-    /// `Corrupt`, `Io`.
+    /// `Replaced`, `Corrupt`, `Io`.
     pub fn is_ahead_of_its_checkpoint(&self) -> Result<bool, RecordError> {
+        Ok(self.read_checkpoint()?.rows < self.rows())
+    }
+
+    fn read_checkpoint(&self) -> Result<Checkpoint, RecordError> {
         let file = self.path.join(disk::CHECKPOINT);
-        Ok(Checkpoint::decode(&disk::read(&file)?, &file)?.rows < self.rows())
+        let checkpoint = disk::read(&file).and_then(|bytes| Checkpoint::decode(&bytes, &file));
+        match &self.source {
+            Source::Disk(chunks) => chunks.own(&self.path, checkpoint),
+            Source::Memory(_) => checkpoint,
+        }
     }
 
     /// All arrays: the growing ones in the order of a row, `time` first, then events, fixed arrays and labels.
@@ -145,7 +154,7 @@ impl Recording {
     /// The entries of a sample in the arrays of that group.
     ///
     /// # Errors
-    /// `NoSuchArray` without one; `NoSuchRows`, `Truncated`, `Corrupt`, `Io`.
+    /// `NoSuchArray` without one; `NoSuchRows`, `Replaced`, `Truncated`, `Corrupt`, `Io`.
     pub fn entries(&self, row: usize) -> Result<Range<usize>, RecordError> {
         let name = self.ragged().ok_or_else(|| RecordError::NoSuchArray { name: START.into() })?;
         let name = format!("{name}/{START}");
@@ -160,7 +169,7 @@ impl Recording {
     /// Reads a whole array.
     ///
     /// # Errors
-    /// `NoSuchArray` (labels are read by [`labels`](Recording::labels)); `Truncated`, `Corrupt`, `Io`.
+    /// `NoSuchArray` (labels are read by [`labels`](Recording::labels)); `Replaced`, `Truncated`, `Corrupt`, `Io`.
     pub fn read(&self, name: &str) -> Result<Array, RecordError> {
         let rows = self.array(name)?.shape.first().map_or(1, |rows| *rows);
         self.read_rows(name, 0..rows)
@@ -169,7 +178,7 @@ impl Recording {
     /// Reads rows of an array: places along its first dimension.
     ///
     /// # Errors
-    /// `NoSuchArray`, `NoSuchRows`, `Truncated`, `Corrupt`, `Io`.
+    /// `NoSuchArray`, `NoSuchRows`, `Replaced`, `Truncated`, `Corrupt`, `Io`.
     pub fn read_rows(&self, name: &str, rows: Range<usize>) -> Result<Array, RecordError> {
         let array = self.array(name)?;
         if array.data_type == DataType::String {
@@ -219,14 +228,14 @@ impl Recording {
     /// Labels of a dimension, if it has any.
     ///
     /// # Errors
-    /// `Corrupt`, `Io`.
+    /// `Replaced`, `Corrupt`, `Io`.
     pub fn labels(&self, dim: &str) -> Result<Option<Vec<String>>, RecordError> {
         let labelled = |array: &&ArrayInfo| array.name == dim && array.data_type == DataType::String;
         let Some(array) = self.arrays().iter().find(labelled) else {
             return Ok(None);
         };
         match &self.source {
-            Source::Disk(_) => read_labels(array, &self.path).map(Some),
+            Source::Disk(chunks) => chunks.own(&self.path, read_labels(array, &self.path)).map(Some),
             Source::Memory(memory) => Ok(Some(memory.labels(array))),
         }
     }
@@ -239,7 +248,7 @@ impl Recording {
     /// All events.
     ///
     /// # Errors
-    /// `Truncated`, `Corrupt`, `Io`.
+    /// `Replaced`, `Truncated`, `Corrupt`, `Io`.
     pub fn events(&self) -> Result<Vec<Event>, RecordError> {
         if self.group.rows("event").is_none() {
             return Ok(Vec::new());

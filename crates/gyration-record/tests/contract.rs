@@ -342,3 +342,20 @@ fn metadata_of_arrays_and_of_the_group_agree() {
         assert_eq!(json(path.join(name).join("zarr.json")), *array, "{name}");
     }
 }
+
+#[test]
+fn one_that_takes_the_place_of_an_open_one_is_not_read_for_it() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("run.gyr");
+    finished(&path, 3, 4);
+    let first = Recording::open(&path).unwrap();
+    let times = first.times().unwrap();
+    fs::rename(&path, folder.path().join("aside.gyr")).unwrap();
+    finished(&path, 3, 4);
+    // What was read before is known, and nothing else of it.
+    assert_eq!(first.times().unwrap(), times);
+    let is_replaced = |error| matches!(error, RecordError::Replaced { .. });
+    assert!(is_replaced(first.read("position").unwrap_err()));
+    assert!(is_replaced(first.labels("body").unwrap_err()) && is_replaced(first.checkpoint().unwrap_err()));
+    assert!(Recording::open(&path).unwrap().read("position").is_ok());
+}
