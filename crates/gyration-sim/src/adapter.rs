@@ -198,6 +198,11 @@ impl ModelSystem {
         std::mem::swap(&mut self.workspace, workspace);
     }
 
+    /// Gives its scratch of the mechanics up, until it needs some again.
+    pub(crate) fn forget_workspace(&mut self) {
+        self.workspace = OwnWorkspace::default();
+    }
+
     /// The energy in play of bodies without inertia, which have no kinetic energy [J].
     pub fn viscous_energy(&self) -> f64 {
         self.viscous

@@ -161,6 +161,9 @@ impl Island {
         if !(is_whole && stays) {
             this.restart_point = Some(RestartPoint::new(this.memory()));
         }
+        if pool::borrows_scratch(&this) {
+            this.system.forget_workspace();
+        }
         Ok(this)
     }
 

@@ -8,6 +8,12 @@ use crate::island::Island;
 use gyration_ode::Scratch;
 use std::sync::{Mutex, PoisonError};
 
+/// Whether an island is lent scratch: not one of several bodies, whose factors are made for a pattern that few share, nor
+/// one that meets supports with a shape: a workspace remembers the planes of pairs.
+pub(super) fn borrows_scratch(island: &Island) -> bool {
+    island.members().len() == 1 && island.model().rules().is_empty()
+}
+
 /// Scratch of one thread.
 #[derive(Default)]
 struct Pooled {
@@ -20,14 +26,12 @@ struct Pooled {
 pub(crate) struct ScratchPool(Mutex<Vec<Pooled>>);
 
 impl ScratchPool {
-    /// Does something with each of these islands, which have scratch meanwhile. Those of several bodies keep their own,
-    /// whose factors are made for a pattern that few share, and those of one that meets supports with a shape.
+    /// Does something with each of these islands, which have scratch meanwhile.
     pub fn with_scratch<'a>(&self, islands: impl Iterator<Item = &'a mut Island>, mut act: impl FnMut(&mut Island)) {
         let shared = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let mut pooled = shared().pop().unwrap_or_default();
         for island in islands {
-            // A workspace remembers the planes of pairs.
-            if island.members().len() > 1 || !island.model().rules().is_empty() {
+            if !borrows_scratch(island) {
                 act(island);
                 continue;
             }

@@ -71,18 +71,18 @@ impl Simulation {
 
     /// Samples all bodies at a time within the last steps.
     pub(super) fn sample(&mut self, time: f64) {
-        let Self { partition, assembled, state, .. } = self;
+        let Self { partition, assembled, state, shared, .. } = self;
         assembled.begin(time, &state.settled);
-        for island in partition.islands.iter_mut() {
+        shared.with_scratch(partition.islands.iter_mut(), |island| {
             island.sample(time);
             assembled.add(island, &island.sampled);
-        }
+        });
         assembled.end();
     }
 
     /// Finds what has come of the interval between the last sample and the time that was sampled.
     fn find_interval(&mut self) {
-        let Self { model, plan, partition, assembled, state, rows, .. } = self;
+        let Self { model, plan, partition, assembled, state, rows, shared, .. } = self;
         let time = assembled.state.time;
         let before = state.sampled_impulses.iter().copied().chain(std::iter::repeat(0.0));
         rows.interval.impulses.clear();
@@ -90,12 +90,12 @@ impl Simulation {
         rows.interval.peak_forces.clear();
         if plan.extras.peak_forces() {
             rows.interval.peak_forces.resize(model.bodies.len(), 0.0);
-            for island in partition.islands.iter_mut() {
+            shared.with_scratch(partition.islands.iter_mut(), |island| {
                 let found = island.peaks_at(time, state.next_sample, plan);
                 for (body, force) in island.members().iter().zip(found) {
                     rows.interval.peak_forces[*body] = force;
                 }
-            }
+            });
         }
     }
 
