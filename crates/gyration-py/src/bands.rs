@@ -11,6 +11,7 @@ use gyration_sim::survey::{
     BandOptions, BandSurvey, CellRestSurvey, ComplexBandOptions, ComplexBandSurvey, InstabilitySurvey, Named,
     StrainSurvey, TopologySurvey, USUAL_MESH,
 };
+use gyration_sim::within_wall_time;
 use numpy::Complex64;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -78,14 +79,16 @@ pub fn bands<'py>(
     let mesh = mesh.map(|mesh| counted("mesh", mesh)).transpose()?;
     if let Some(along) = along {
         let (along, steps) = (strains(along)?, counted("steps", steps)?);
-        let found = interruptibly(py, || StrainSurvey::of(&scene, &along, steps, mesh))?.map_err(errors::arguments)?;
+        let found = interruptibly(py, || within_wall_time(&scene, || StrainSurvey::of(&scene, &along, steps, mesh)))?
+            .map_err(errors::arguments)?;
         return strained(py, &found);
     }
     let strain =
         strain.map(StrainPath::parse_value).transpose().map_err(|error| errors::arguments(error.to_string()))?;
     if topology {
         let mesh = mesh.unwrap_or(USUAL_MESH);
-        let found = interruptibly(py, || TopologySurvey::of(&scene, path, mesh, strain.as_ref()))?;
+        let found =
+            interruptibly(py, || within_wall_time(&scene, || TopologySurvey::of(&scene, path, mesh, strain.as_ref())))?;
         return phases(py, &found.map_err(errors::arguments)?);
     }
     let options = BandOptions { points: counted("points", points)?, mesh, shapes, strain, derivatives, bound };
@@ -93,10 +96,12 @@ pub fn bands<'py>(
         let wrong = || errors::arguments(format!("{direction} is no direction\n  fix: give 1, 2 or 3"));
         let direction = usize::try_from(direction).ok().filter(|it| (1..=3).contains(it)).ok_or_else(wrong)? - 1;
         let complex = ComplexBandOptions { direction, omega: omega.map(frequencies).transpose()? };
-        let found = interruptibly(py, || ComplexBandSurvey::of(&scene, path, options, complex))?;
+        let found =
+            interruptibly(py, || within_wall_time(&scene, || ComplexBandSurvey::of(&scene, path, options, complex)))?;
         return complex_bands(py, &found.map_err(errors::arguments)?);
     }
-    let found = interruptibly(py, || BandSurvey::of(&scene, path, options))?.map_err(errors::arguments)?;
+    let found = interruptibly(py, || within_wall_time(&scene, || BandSurvey::of(&scene, path, options)))?
+        .map_err(errors::arguments)?;
     along_path(py, &found)
 }
 

@@ -195,6 +195,9 @@ impl Batch {
     /// Steps each member by a time [s] from where it is, one for all or (members,); returns what :meth:`advance` does.
     fn advance_by<'py>(&mut self, py: Python<'py>, dt: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let by = numbers_of_members("dt", dt, self.members.len(), &[])?;
+        if let Some(back) = by.iter().find(|by| **by < 0.0) {
+            return Err(errors::arguments(format!("`dt` is {back}\n  fix: give times in seconds, zero or above")));
+        }
         let until: Vec<f64> = self.members.iter().zip(by).map(|(member, by)| member.time() + by).collect();
         self.go(py, &until)
     }

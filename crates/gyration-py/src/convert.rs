@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Number, Value};
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// The deepest nesting; a scene needs less than twenty.
@@ -123,7 +124,7 @@ impl Names {
 
 /// A Python object as a text of JSON, lines indented; tables keep their order, which tells the axes of a study.
 pub fn json(object: &Bound<'_, PyAny>) -> PyResult<String> {
-    let text = serde_json::to_string_pretty(&tree(object, 0)?);
+    let text = serde_json::to_string_pretty(&tree(object, &mut Vec::new())?);
     text.map(|text| text + "\n").map_err(|error| errors::arguments(error.to_string()))
 }
 
@@ -144,29 +145,59 @@ impl Serialize for OrderedJson {
     }
 }
 
-fn tree(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<OrderedJson> {
-    check_depth(depth)?;
+/// A step down from a table or a list.
+enum Within {
+    Entry(String),
+    Item(usize),
+}
+
+fn tree(object: &Bound<'_, PyAny>, place: &mut Vec<Within>) -> PyResult<OrderedJson> {
+    check_depth(place.len())?;
     Ok(OrderedJson::Leaf(match plain(object)? {
         Plain::Bool(value) => value.into(),
         Plain::Whole(digits) => match digits.parse::<i64>() {
             Ok(whole) => whole.into(),
-            Err(_) => real(digits.parse().unwrap_or(f64::NAN))?,
+            Err(_) => real(digits.parse().unwrap_or(f64::NAN), place)?,
         },
-        Plain::Real(value) => real(value)?,
+        Plain::Real(value) => real(value, place)?,
         Plain::Text(text) => text.into(),
         Plain::List(items) => {
-            return Ok(OrderedJson::List(items.iter().map(|item| tree(item, depth + 1)).collect::<PyResult<_>>()?));
+            let item = |(number, item)| below(item, Within::Item(number), place);
+            return Ok(OrderedJson::List(items.iter().enumerate().map(item).collect::<PyResult<_>>()?));
         }
         Plain::Table(entries) => {
-            let entry = |(key, value): (String, Bound<'_, PyAny>)| Ok((key, tree(&value, depth + 1)?));
+            let entry = |(key, value): (String, Bound<'_, PyAny>)| {
+                let value = below(&value, Within::Entry(key.clone()), place)?;
+                Ok((key, value))
+            };
             return Ok(OrderedJson::Table(entries.into_iter().map(entry).collect::<PyResult<_>>()?));
         }
     }))
 }
 
-fn real(value: f64) -> PyResult<Value> {
+fn below(object: &Bound<'_, PyAny>, step: Within, place: &mut Vec<Within>) -> PyResult<OrderedJson> {
+    place.push(step);
+    let found = tree(object, place);
+    place.pop();
+    found
+}
+
+fn real(value: f64, place: &[Within]) -> PyResult<Value> {
     let number = Number::from_f64(value).map(Value::Number);
-    number.ok_or_else(|| errors::arguments(format!("{value} is not a finite number\n  fix: give a finite one")))
+    number.ok_or_else(|| {
+        let steps: Vec<String> = place.iter().map(ToString::to_string).collect();
+        let key = if steps.is_empty() { String::new() } else { format!("{}: ", steps.join(".")) };
+        errors::arguments(format!("{key}{value} is not a finite number\n  fix: give a finite one"))
+    })
+}
+
+impl fmt::Display for Within {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Entry(key) => formatter.write_str(key),
+            Self::Item(number) => number.fmt(formatter),
+        }
+    }
 }
 
 fn check_depth(depth: usize) -> PyResult<()> {

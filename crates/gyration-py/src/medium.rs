@@ -9,7 +9,7 @@ use gyration::tensor::Vec3;
 use gyration_sim::modes::bands::ContinuumModel;
 use gyration_sim::orbit::{OrbitChoice, OrbitSurvey};
 use gyration_sim::survey::ContinuumSurvey;
-use gyration_sim::{FieldPoints, FieldSurvey, RingSpectrum};
+use gyration_sim::{FieldPoints, FieldSurvey, RingSpectrum, within_wall_time};
 use pyo3::prelude::*;
 use serde_json::json;
 
@@ -30,7 +30,8 @@ pub fn continuum<'py>(
         let names = ContinuumModel::ALL.map(ContinuumModel::name).join(", ");
         errors::arguments(format!("{model:?} is no model of a continuum\n  fix: give one of {names}"))
     })?;
-    let found = interruptibly(py, || ContinuumSurvey::of(&scene, model, path, points.max(1)))?;
+    let found =
+        interruptibly(py, || within_wall_time(&scene, || ContinuumSurvey::of(&scene, model, path, points.max(1))))?;
     let found = found.map_err(errors::arguments)?;
     found.warnings.iter().try_for_each(|warning| errors::warn(py, Some(warning.clone())))?;
     with_arrays(py, &json!(found))
@@ -113,6 +114,7 @@ pub fn orbit<'py>(
         Cells::Each(all) => all,
     });
     let scene = Scene::ready(scene)?;
-    let found = interruptibly(py, || OrbitSurvey::of(&scene, &choice, shift))?.map_err(errors::arguments)?;
+    let found = interruptibly(py, || within_wall_time(&scene, || OrbitSurvey::of(&scene, &choice, shift)))?
+        .map_err(errors::arguments)?;
     with_arrays(py, &json!(found))
 }

@@ -5,6 +5,7 @@ use crate::monitor::interruptibly;
 use crate::scene::Scene;
 use gyration_sim::modes::PARTS;
 use gyration_sim::survey::modes_in_json;
+use gyration_sim::within_wall_time;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use serde_json::Value;
@@ -28,7 +29,7 @@ use serde_json::Value;
 #[pyfunction]
 pub fn modes<'py>(py: Python<'py>, scene: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
     let scene = Scene::ready(scene)?;
-    let all = interruptibly(py, || modes_in_json(&scene))?;
+    let all = interruptibly(py, || within_wall_time(&scene, || modes_in_json(&scene)))?;
     let systems = list(&all, "systems");
     let names = |system: &Value| PyTuple::new(py, members(system));
     let found = PyDict::new(py);

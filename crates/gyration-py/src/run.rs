@@ -43,6 +43,10 @@ pub fn run(
 
 /// The folder of the recording, and what removes it if nobody asked for it.
 pub fn place(options: &RecordOptions, name: &str) -> PyResult<(PathBuf, Option<Arc<TempDir>>)> {
+    if options.resume && options.force {
+        let fix = "go on with what is there by resume=True, or replace it by force=True";
+        return Err(errors::arguments(format!("`resume` and `force` at once\n  fix: {fix}")));
+    }
     let Some(path) = &options.output else {
         if options.resume {
             return Err(errors::arguments(

@@ -9,7 +9,7 @@ use crate::run::{RecordOptions, run};
 use gyration_scene::{Scene as Inner, gallery, gallery_scene};
 use gyration_sim::survey::Survey;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyType};
+use pyo3::types::{PyDict, PyIterator, PyType};
 use serde_json::Value;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -162,6 +162,16 @@ impl Scene {
     /// A value of the resolved scene by its dotted key, in SI units: ``scene["body.die.velocity"]``.
     fn __getitem__<'py>(&self, py: Python<'py>, key: &str) -> PyResult<Bound<'py, PyAny>> {
         to_python(py, find(&self.inner.resolved(), key)?)
+    }
+
+    /// Whether the resolved scene has a value of this dotted key.
+    fn __contains__(&self, key: &str) -> bool {
+        find(&self.inner.resolved(), key).is_ok()
+    }
+
+    /// The dotted keys of the resolved scene.
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+        self._ipython_key_completions_().into_pyobject(py)?.try_iter()
     }
 
     fn _ipython_key_completions_(&self) -> Vec<String> {

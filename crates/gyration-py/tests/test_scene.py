@@ -49,6 +49,12 @@ def test_edits_hold_tables_texts_and_flags(ball):
     assert edited.title == 'so "quoted"'
 
 
+def test_keys_of_a_scene_are_counted_and_asked_for(ball):
+    keys = list(ball)
+    assert "body.ball.density" in keys and "body.ball.density" in ball and "body.ball.colour" not in ball
+    assert all(key in ball for key in keys)
+
+
 def test_an_unknown_key_is_a_key_error_that_says_what_there_is(ball):
     with pytest.raises(KeyError, match="it has ball"):
         ball["body.bal.velocity"]
@@ -152,6 +158,12 @@ def test_messages_speak_of_arguments(tmp_path):
     scene.run(tmp_path / "die.gyr")
     with pytest.raises(gyration.Error, match="force=True"):
         scene.edit({"body.die.velocity": [1, 0, 0]}).run(tmp_path / "die.gyr", resume=True)
+    with pytest.raises(gyration.ArgumentError, match="`resume` and `force` at once"):
+        scene.run(tmp_path / "die.gyr", resume=True, force=True)
+    with pytest.raises(gyration.ArgumentError, match=r"^body.0.position.2: NaN is not a finite number"):
+        gyration.Scene.from_dict({"body": [{"position": [0, 0, np.nan]}]})
+    with pytest.raises(gyration.ArgumentError, match="`dt` is -1"):
+        gyration.Batch("dice", 2).advance_by(-1)
     with pytest.raises(gyration.ArgumentError, match="type Scene has no meaning here\n  fix: name the scene by its path"):
         gyration.study({"scene": scene, "keep": {"z": {"last": "die.z"}}})
 
