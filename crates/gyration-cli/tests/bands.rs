@@ -157,6 +157,7 @@ fn what_bands_cannot_do_is_refused() {
         (&["string.toml", "--strain", "xx=0..0.1"], "one value of each component"),
         (&["string.toml", "--along", "xx=0..0.1", "--steps", "1"], "--steps 2"),
         (&["string.toml", "--omega", "0..3"], "--complex"),
+        (&["string.toml", "--set", "solver.max_wall_time=1e-9"], "longer than solver.max_wall_time"),
         (&["string.toml", "--plot", "bands.bmp"], ""),
     ] {
         let said = sandbox.refused(2, &[&["bands"][..], arguments].concat());

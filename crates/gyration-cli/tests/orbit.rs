@@ -43,6 +43,7 @@ fn what_is_no_orbit_is_refused() {
         (&["--shift", "1"], "no `[lattice]`"),
         (&["--shift", "1,2"], "neither a number of cells nor three"),
         (&["--energy", "1", "--amplitude", "body.a.x=1"], "cannot be used with"),
+        (&["--period", "4.8", "--set", "solver.max_wall_time=1e-9"], "took longer than solver.max_wall_time"),
     ] {
         let said = sandbox.refused(2, &[&["orbit", "well.toml"][..], arguments].concat());
         assert!(said.stderr.contains(told), "{arguments:?}: {}", said.stderr);

@@ -44,6 +44,7 @@ mod sum;
 mod summary;
 pub mod survey;
 mod variation;
+mod wall_time;
 pub mod waves;
 
 pub use adapter::Tolerance;
@@ -62,3 +63,4 @@ pub use run::Simulation;
 pub use stepping::{BodyStart, Refusal, SteppedRun};
 pub use summary::{Balance, BodySummary, LedgerSummary, OpenLedgers, RunSummary, Verdict};
 pub use survey::remarks::Remarks;
+pub use wall_time::within_wall_time;

@@ -13,7 +13,7 @@ use gyration_page::blob;
 use gyration_scene::Scene;
 use gyration_sim::survey::{BandOptions, BandSurvey, passing_waves};
 use gyration_sim::waves::PassingWaves;
-use gyration_threads::Interruption;
+use gyration_sim::within_wall_time;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -33,7 +33,7 @@ impl Waves {
     /// # Errors
     /// Why it has none, in words.
     pub fn of(scene: Arc<Scene>) -> Result<Self, String> {
-        let passing = within(&scene, || passing_waves(&scene))?;
+        let passing = within_wall_time(&scene, || passing_waves(&scene))?;
         Ok(Self { scene, passing })
     }
 
@@ -48,7 +48,7 @@ impl Waves {
     /// Why there are none, in words.
     pub fn bands(&self, path: Option<&str>) -> Result<Value, String> {
         let options = BandOptions { points: POINTS, ..BandOptions::default() };
-        let found = within(&self.scene, || BandSurvey::of(&self.scene, path, options))?;
+        let found = within_wall_time(&self.scene, || BandSurvey::of(&self.scene, path, options))?;
         let BandSurvey { kappa, k, omega, decay, participation, edges, labels, vertices, begins, warnings, .. } = found;
         Ok(json!({
             "kappa": kappa, "k": k, "omega": omega, "decay": decay, "participation": participation,
@@ -61,7 +61,7 @@ impl Waves {
     /// # Errors
     /// Why there is none, in words.
     pub fn wave(&self, path: &str, branch: usize, part: f64) -> Result<Vec<u8>, String> {
-        let found = within(&self.scene, || self.passing.passing(path, branch, part))?;
+        let found = within_wall_time(&self.scene, || self.passing.passing(path, branch, part))?;
         let file = self.scene.file();
         let [copies, cells] =
             [file.lattice.as_ref().map(|it| it.repeat.map(|it| it.0 as u32)).unwrap_or([1; 3]), self.passing.repeat()]
@@ -85,9 +85,4 @@ impl Waves {
         }
         Ok(binary::encode(&head, &payload))
     }
-}
-
-/// Gives up what takes longer than a run of the scene may.
-fn within<T>(scene: &Scene, work: impl FnOnce() -> T) -> T {
-    Interruption::in_force().after(scene.built().plan.wall_time()).within(work)
 }

@@ -17,6 +17,7 @@ use gyration_sim::modes::bands::StrainPath;
 use gyration_sim::survey::{
     BandOptions, BandSurvey, ComplexBandOptions, ComplexBandSurvey, StrainSurvey, TopologySurvey, USUAL_MESH, unit_cell,
 };
+use gyration_sim::within_wall_time;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -32,27 +33,34 @@ pub fn execute(arguments: &Bands) -> Result<u8, CliError> {
             return Err(refused("a path of strains has two values at least: write --steps 2 or more".to_owned()));
         }
         let mesh = arguments.mesh.map(std::num::NonZero::get);
-        let found = waiting(looking, true, || StrainSurvey::of(&scene, &path, arguments.steps.get(), mesh));
+        let found = waiting(looking, true, || {
+            within_wall_time(&scene, || StrainSurvey::of(&scene, &path, arguments.steps.get(), mesh))
+        });
         let found = found.map_err(refused)?;
         let words = || special::strained(scene.title(), &found);
         if arguments.json { json(&serde_json::json!(found)) } else { words() }
     } else if arguments.complex {
         let (path, options, complex) = (arguments.path.as_deref(), options(arguments)?, complex(arguments)?);
-        let found = waiting(looking, true, || ComplexBandSurvey::of(&scene, path, options, complex));
+        let found = waiting(looking, true, || {
+            within_wall_time(&scene, || ComplexBandSurvey::of(&scene, path, options, complex))
+        });
         let found = found.map_err(refused)?;
         let words = || special::complex(scene.title(), &found);
         if arguments.json { json(&serde_json::json!(found)) } else { words() }
     } else if arguments.topology {
         let (path, strain) = (arguments.path.as_deref(), options(arguments)?.strain);
         let mesh = arguments.mesh.map_or(USUAL_MESH, std::num::NonZero::get);
-        let found = waiting(looking, true, || TopologySurvey::of(&scene, path, mesh, strain.as_ref()));
+        let found = waiting(looking, true, || {
+            within_wall_time(&scene, || TopologySurvey::of(&scene, path, mesh, strain.as_ref()))
+        });
         let found = found.map_err(refused)?;
         found.warnings.iter().for_each(|warning| output::say(&format!("warning: {warning}")));
         let words = || special::topology(scene.title(), &found);
         if arguments.json { json(&serde_json::json!(found)) } else { words() }
     } else {
         let (path, options) = (arguments.path.as_deref(), options(arguments)?);
-        let found = waiting(looking, true, || BandSurvey::of(&scene, path, options)).map_err(refused)?;
+        let found = waiting(looking, true, || within_wall_time(&scene, || BandSurvey::of(&scene, path, options)))
+            .map_err(refused)?;
         found.warnings.iter().for_each(|warning| output::say(&format!("warning: {warning}")));
         write_files(arguments, &scene, &found)?;
         if arguments.json { json(&serde_json::json!(found)) } else { in_words(scene.title(), &found) }

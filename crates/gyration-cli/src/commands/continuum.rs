@@ -9,6 +9,7 @@ use crate::waiting::waiting;
 use gyration_sim::format::{significant, vector};
 use gyration_sim::modes::bands::Tensor;
 use gyration_sim::survey::ContinuumSurvey;
+use gyration_sim::within_wall_time;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -24,7 +25,9 @@ pub fn execute(arguments: &ContinuumArguments) -> Result<u8, CliError> {
     let scene = waiting(format!("opening {name}"), true, || at_rest(&arguments.scene))?;
     let (path, points) = (arguments.path.as_deref(), arguments.points.get());
     let looking = format!("expanding the waves of {name}");
-    let found = waiting(looking, true, || ContinuumSurvey::of(&scene, arguments.model.model(), path, points));
+    let found = waiting(looking, true, || {
+        within_wall_time(&scene, || ContinuumSurvey::of(&scene, arguments.model.model(), path, points))
+    });
     let found = found.map_err(|reason| CliError::arguments(reason, "see `gyration continuum --help`"))?;
     found.warnings.iter().for_each(|warning| output::say(&format!("warning: {warning}")));
     if let Some(path) = &arguments.plot {

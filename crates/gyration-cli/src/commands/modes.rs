@@ -10,6 +10,7 @@ use gyration::load::Spring;
 use gyration_scene::Scene;
 use gyration_sim::format::significant;
 use gyration_sim::survey::{self, BodyModes, ModeSurvey, Named, SceneModes, ShapeSurvey, SystemModes, write_rest};
+use gyration_sim::within_wall_time;
 use std::fmt::Write as _;
 
 /// Columns of a terminal that the tables fit in.
@@ -23,10 +24,12 @@ const MOST_SHOWN: usize = 12;
 pub fn execute(arguments: &Modes) -> Result<u8, CliError> {
     let name = &arguments.scene.scene;
     let scene = waiting(format!("opening {name}"), true, || ready(&arguments.scene))?;
-    let text = waiting(format!("looking for the rest states of {name}"), true, || match arguments.json {
+    let found = || match arguments.json {
         true => format!("{:#}\n", survey::modes_in_json(&scene)),
         false => in_words(&scene),
-    });
+    };
+    let looking = format!("looking for the rest states of {name}");
+    let text = waiting(looking, true, || within_wall_time(&scene, found));
     output::print(&text)?;
     Ok(code::DONE)
 }

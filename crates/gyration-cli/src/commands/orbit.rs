@@ -7,6 +7,7 @@ use crate::output;
 use crate::waiting::waiting;
 use gyration_sim::format::{significant, vector};
 use gyration_sim::orbit::{OrbitChoice, OrbitSurvey};
+use gyration_sim::within_wall_time;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
@@ -24,8 +25,9 @@ pub fn execute(arguments: &OrbitArguments) -> Result<u8, CliError> {
         (None, None, Some(period)) => OrbitChoice::Period(period),
         (None, None, None) => OrbitChoice::Nearest,
     };
-    let found =
-        waiting(format!("looking for an orbit of {name}"), true, || OrbitSurvey::of(&scene, &choice, arguments.shift));
+    let found = waiting(format!("looking for an orbit of {name}"), true, || {
+        within_wall_time(&scene, || OrbitSurvey::of(&scene, &choice, arguments.shift))
+    });
     let found =
         found.map_err(|reason| CliError::arguments(reason, "see `gyration orbit --help`; begin nearer to it"))?;
     let text = match arguments.json {

@@ -12,12 +12,12 @@ use super::springs::SpringSurvey;
 use super::supports::SupportSurvey;
 use crate::resistance::completed;
 use crate::survey::remarks::Remarks;
+use crate::wall_time::within_wall_time;
 use gyration::body::Body;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::Components;
 use gyration_scene::{Scene, SceneErrors};
-use gyration_threads::Interruption;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -196,7 +196,7 @@ impl Survey {
     /// # Errors
     /// Why a surface has no resistance.
     pub fn of(scene: &Scene) -> Result<Self, SceneErrors> {
-        Interruption::in_force().after(scene.built().plan.wall_time()).within(|| Self::whole(scene))
+        within_wall_time(scene, || Self::whole(scene))
     }
 
     fn whole(scene: &Scene) -> Result<Self, SceneErrors> {
