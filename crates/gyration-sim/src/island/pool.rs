@@ -8,8 +8,8 @@ use crate::island::Island;
 use gyration_ode::Scratch;
 use std::sync::{Mutex, PoisonError};
 
-/// Whether an island is lent scratch: not one of several bodies, whose factors are made for a pattern that few share, nor
-/// one that meets supports with a shape: a workspace remembers the planes of pairs.
+/// Whether an island is lent scratch: not one of several bodies, whose factors are made for a pattern that few share,
+/// nor one that meets supports with a shape: a workspace remembers the planes of pairs.
 pub(super) fn borrows_scratch(island: &Island) -> bool {
     island.members().len() == 1 && island.model().rules().is_empty()
 }
