@@ -75,6 +75,9 @@ impl Support {
     /// Where it is at a time [s].
     #[inline]
     pub fn at(&self, time: f64) -> PlaneAt {
+        if self.motion.is_fixed() {
+            return PlaneAt { origin: self.origin, shift: Vec3::zeros(), normal: self.normal };
+        }
         if self.motion.turns() {
             let carried = self.motion.carriage(time);
             let (origin, normal) = (carried.place(&self.origin), carried.rotation * self.normal);
@@ -86,6 +89,9 @@ impl Support {
     /// How it moves at a time [s].
     #[inline]
     pub fn motion_at(&self, time: f64) -> PlaneMotion {
+        if self.motion.is_fixed() {
+            return PlaneMotion { velocity: Vec3::zeros(), spin: None, center: Vec3::zeros() };
+        }
         if self.motion.turns() {
             let carried = self.motion.carriage(time);
             return PlaneMotion { velocity: carried.velocity, spin: Some(carried.spin), center: carried.shift };
