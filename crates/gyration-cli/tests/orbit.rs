@@ -39,7 +39,7 @@ fn what_is_no_orbit_is_refused() {
         (&["--energy", "nan"], "no finite number"),
         (&["--amplitude", "body.a.x"], "is not as"),
         (&["--amplitude", "body.a.x=inf"], "is not as"),
-        (&["--amplitude", "body.b.x=1"], "the columns are"),
+        (&["--amplitude", "body.b.x=1"], "did you mean `a.x`?"),
         (&["--shift", "1"], "no `[lattice]`"),
         (&["--shift", "1,2"], "neither a number of cells nor three"),
         (&["--energy", "1", "--amplitude", "body.a.x=1"], "cannot be used with"),

@@ -15,6 +15,7 @@ use crate::saved;
 use crate::scene::Scene;
 use crate::start::GivenState;
 use gyration::tensor::{Mat3, Vec3};
+use gyration_scene::suggestion;
 use gyration_sim::{Reason, SteppedRun};
 use numpy::{PyArray1, PyArrayDyn};
 use pyo3::exceptions::PyKeyError;
@@ -327,8 +328,9 @@ impl Batch {
             return self.time(py);
         }
         let Some(place) = self.columns.iter().find(|(name, _)| name == column).map(|(_, place)| *place) else {
-            let names = self.columns().join(", ");
-            return Err(PyKeyError::new_err(format!("there is no column `{column}`: there are t, {names}")));
+            let names = self.columns();
+            let fix = suggestion(column, names.iter().map(String::as_str), "besides `t` the columns are");
+            return Err(PyKeyError::new_err(format!("there is no column `{column}`: {fix}")));
         };
         let rows = self.each(py, &self.all(), |_, run, _| Ok(run.row()?[place]))?;
         let values = rows.into_iter().collect::<Result<Vec<f64>, _>>().map_err(|stop| errors::stopped(&stop))?;

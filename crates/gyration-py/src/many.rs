@@ -8,7 +8,7 @@ use crate::errors::{self, reason};
 use crate::monitor::PythonMonitor;
 use crate::scene::Scene;
 use gyration_record::RecordError;
-use gyration_scene::Scene as Built;
+use gyration_scene::{Scene as Built, suggestion};
 use gyration_sim::rows::Fields;
 use gyration_sim::{
     Job, Monitor, OpenLedgers, Outcome, Progress, Reason, RunError, RunPlan, Simulation, Sink, Verdict,
@@ -98,7 +98,8 @@ fn check_columns(scenes: &[Arc<Built>], keep: &[String]) -> PyResult<()> {
     }
     match keep.iter().find(|name| !all.contains(*name)) {
         Some(name) if !scenes.is_empty() => {
-            Err(errors::arguments(format!("no scene has the column `{name}`\n  fix: choose of {}", all.join(", "))))
+            let fix = suggestion(name, all.iter().map(String::as_str), "choose of");
+            Err(errors::arguments(format!("no scene has the column `{name}`\n  fix: {fix}")))
         }
         _ => Ok(()),
     }
@@ -264,8 +265,9 @@ impl Runs {
             _ => ending.last.iter().find(|(name, _)| name == column).map_or(f64::NAN, |(_, value)| *value),
         };
         if !self.columns().iter().any(|known| known == column) {
-            let names = self.columns().join(", ");
-            return Err(PyKeyError::new_err(format!("there is no column `{column}`: there are {names}")));
+            let names = self.columns();
+            let fix = suggestion(column, names.iter().map(String::as_str), "the columns are");
+            return Err(PyKeyError::new_err(format!("there is no column `{column}`: {fix}")));
         }
         array(py, self.endings.iter().map(of).collect(), &[self.endings.len()])
     }

@@ -6,7 +6,7 @@ use crate::monitor::interruptibly;
 use crate::picture::Picture;
 use crate::recording::Recording;
 use crate::run::{RecordOptions, run};
-use gyration_scene::{Scene as Inner, gallery, gallery_scene};
+use gyration_scene::{Scene as Inner, gallery, gallery_scene, listed};
 use gyration_sim::survey::Survey;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyIterator, PyType};
@@ -282,7 +282,7 @@ impl Scene {
         // Copies have one name here.
         let bodies: Vec<&str> = self.inner.file().body.iter().map(|body| body.name.as_str()).collect();
         let title = self.title().map(|title| format!(" {title:?}")).unwrap_or_default();
-        format!("<gyration.Scene {}{title}: {}>", self.inner.name(), bodies.join(", "))
+        format!("<gyration.Scene {}{title}: {}>", self.inner.name(), listed(bodies))
     }
 }
 
@@ -351,8 +351,11 @@ fn item_name((index, item): (usize, &Value)) -> (String, &Value) {
 /// What a value has, in words.
 fn names(value: &Value) -> String {
     match value {
-        Value::Object(entries) => entries.keys().cloned().collect::<Vec<_>>().join(", "),
-        Value::Array(items) => items.iter().enumerate().map(|item| item_name(item).0).collect::<Vec<_>>().join(", "),
+        Value::Object(entries) => listed(entries.keys().map(String::as_str)),
+        Value::Array(items) => {
+            let names: Vec<String> = items.iter().enumerate().map(|item| item_name(item).0).collect();
+            listed(names.iter().map(String::as_str))
+        }
         other => format!("no parts, it is {other}"),
     }
 }

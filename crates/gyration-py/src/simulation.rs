@@ -16,6 +16,7 @@ use crate::scene::Scene;
 use crate::start::GivenState;
 use gyration::load::Loads;
 use gyration_record::remove;
+use gyration_scene::suggestion;
 use gyration_sim::events::EVENT_KINDS;
 use gyration_sim::{Reason, SteppedRun};
 use numpy::PyArrayDyn;
@@ -273,8 +274,9 @@ impl Simulation {
             return Ok(self.time());
         }
         let Some((_, place)) = self.columns.iter().find(|(name, _)| name == column) else {
-            let names = self.columns().join(", ");
-            return Err(PyKeyError::new_err(format!("there is no column `{column}`: there are t, {names}")));
+            let names = self.columns();
+            let fix = suggestion(column, names.iter().map(String::as_str), "besides `t` the columns are");
+            return Err(PyKeyError::new_err(format!("there is no column `{column}`: {fix}")));
         };
         let row = self.stepper.row().map_err(|stop| errors::stopped(&stop))?;
         Ok(row[*place])

@@ -58,6 +58,10 @@ def test_keys_of_a_scene_are_counted_and_asked_for(ball):
 def test_an_unknown_key_is_a_key_error_that_says_what_there_is(ball):
     with pytest.raises(KeyError, match="it has ball"):
         ball["body.bal.velocity"]
+    crowd = ball.edit({"body.ball.copies": {"grid": {"count": [10, 10, 1], "spacing": [0.2, 0.2, 0]}}})
+    with pytest.raises(KeyError, match="did you mean `ball-0.vx`") as caught:
+        gyration.Simulation(crowd)["ball-0.wx"]
+    assert len(str(caught.value)) < 100
 
 
 def test_check_says_what_the_program_says():

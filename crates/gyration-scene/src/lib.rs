@@ -49,7 +49,7 @@ pub use overriding::{Override, OverrideValue};
 pub use pressing::Pressing;
 pub use scene::Scene;
 pub use schema::{schema, schema_of, written_schema};
-pub use suggest::fix as suggestion;
+pub use suggest::{fix as suggestion, listed};
 pub use template::{Template, unit_of};
 pub use uniform::Uniform;
 pub use unknown::{NoForm, NoWave, UnknownForm};

@@ -39,15 +39,18 @@ pub fn fix<'a>(word: &str, known: impl IntoIterator<Item = &'a str> + Clone, wha
     if let Some(candidate) = nearest(word, known.clone()) {
         return format!("did you mean `{candidate}`?");
     }
+    let names = listed(known);
+    if names.is_empty() { format!("there are no {what} here") } else { format!("{what}: {names}") }
+}
+
+/// Names with commas between them, or the first ones of many: a crowd has thousands.
+pub fn listed<'a>(known: impl IntoIterator<Item = &'a str>) -> String {
     // Enough for the keys of the largest table of the format.
     const LISTED: usize = 24;
     let mut names: Vec<&str> = known.into_iter().filter(|name| !name.is_empty()).take(LISTED + 1).collect();
-    if names.is_empty() {
-        return format!("there are no {what} here");
-    }
     let more = if names.len() > LISTED { ", …" } else { "" };
     names.truncate(LISTED);
-    format!("{what}: {}{more}", names.join(", "))
+    names.join(", ") + more
 }
 
 #[cfg(test)]
@@ -75,5 +78,8 @@ mod tests {
     #[test]
     fn a_word_far_from_all_gets_the_list() {
         assert_eq!(fix("colour", ["name", "mass"], "known keys"), "known keys: name, mass");
+        let many: Vec<String> = (0..1000).map(|body| format!("body-{body}")).collect();
+        let said = fix("colour", many.iter().map(String::as_str), "bodies");
+        assert!(said.starts_with("bodies: body-0, ") && said.ends_with(", body-23, …"), "{said}");
     }
 }

@@ -126,7 +126,7 @@ fn what_is_no_orbit_is_told() {
     let said = orbit(&held, &OrbitChoice::Period(1.0)).unwrap_err();
     assert!(said.contains("nothing in the scene can move"), "{said}");
     let said = orbit(WELL, &OrbitChoice::Amplitude("body.b.x".into(), 1.0, None)).unwrap_err();
-    assert!(said.contains("the columns are"), "{said}");
+    assert!(said.contains("did you mean `a.x`?"), "{said}");
 }
 
 #[test]

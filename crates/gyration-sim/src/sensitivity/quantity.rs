@@ -8,6 +8,7 @@ use gyration::Inadmissible;
 use gyration::dynamics::Workspace;
 use gyration::model::Model;
 use gyration::state::State;
+use gyration_scene::suggestion;
 
 /// Columns of a recording, picked from its rows.
 pub(crate) struct Quantities {
@@ -41,7 +42,7 @@ impl Quantities {
                 return Err(fault("it is the error of the run, which has no derivative".into()));
             }
             let found = columns.iter().position(|column| column == name);
-            found.ok_or_else(|| fault(format!("the columns are: {}", order.join(", "))))
+            found.ok_or_else(|| fault(suggestion(name, order.iter().map(String::as_str), "the columns are")))
         };
         let places = names.iter().map(place).collect::<Result<_, _>>()?;
         let with_works = names.iter().any(|name| name.starts_with("work."));
