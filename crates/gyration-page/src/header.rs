@@ -5,6 +5,7 @@
 
 use gyration_record::{ArrayInfo, Attributes, Layout, Recording};
 use serde_json::{Map, Value, json};
+use std::collections::HashMap;
 
 /// The version of what page and program tell each other.
 pub const PROTOCOL: u64 = 1;
@@ -66,7 +67,7 @@ impl ArrayEntry {
 pub struct Header {
     /// What the page is used for.
     pub mode: PageMode,
-    /// Counts the restarts of a live run from one.
+    /// Counts the restarts of a live run, or the recordings that stood at a path, from one.
     pub run: u64,
     /// The attributes of the recording.
     pub attributes: Attributes,
@@ -149,7 +150,8 @@ impl Header {
             columns.map(|(index, column)| (column.clone(), spec.name.clone(), index)).collect::<Vec<_>>()
         };
         let mut columns: Vec<_> = layout.arrays.iter().flat_map(named).collect();
-        columns.sort_by_key(|(name, _, _)| layout.csv_order.iter().position(|column| column == name));
+        let places: HashMap<&String, usize> = layout.csv_order.iter().zip(0..).collect();
+        columns.sort_by_key(|(name, _, _)| places.get(name));
         Self {
             mode: PageMode::Live,
             run,

@@ -82,14 +82,23 @@ impl LastChunks {
         Self { folder: Identity::of(folder), last: Arc::default() }
     }
 
+    /// Whether another folder stands there now.
+    pub(crate) fn are_replaced(&self, folder: &Path) -> bool {
+        let now = Identity::of(folder);
+        now.is_some() && self.folder.is_some() && now != self.folder
+    }
+
+    /// Whether they are in the same folder as others.
+    pub(crate) fn are_beside(&self, others: &Self) -> bool {
+        self.folder == others.folder
+    }
+
     /// What was just read in the folder, if that is still the one.
     ///
     /// # Errors
     /// `Replaced`; otherwise that of the reading.
     pub(crate) fn own<T>(&self, folder: &Path, read: Result<T, RecordError>) -> Result<T, RecordError> {
-        let now = Identity::of(folder);
-        let is_other = now.is_some() && self.folder.is_some() && now != self.folder;
-        if is_other { Err(RecordError::Replaced { path: folder.to_path_buf() }) } else { read }
+        if self.are_replaced(folder) { Err(RecordError::Replaced { path: folder.to_path_buf() }) } else { read }
     }
 
     /// The elements of a chunk of numbers of the recording in `folder`.

@@ -72,6 +72,15 @@ impl Recording {
         Ok(Self { path: name.to_path_buf(), group, source: Source::Memory(Arc::new(memory)) })
     }
 
+    /// Whether two are the same recording, which may have grown in between, and not one in the place of another.
+    pub fn is_same_as(&self, other: &Self) -> bool {
+        match (&self.source, &other.source) {
+            (Source::Disk(own), Source::Disk(others)) => self.path == other.path && own.are_beside(others),
+            (Source::Memory(own), Source::Memory(others)) => Arc::ptr_eq(own, others),
+            _ => false,
+        }
+    }
+
     /// The recording's path.
     pub fn path(&self) -> &Path {
         &self.path

@@ -38,6 +38,11 @@ impl Stored {
         Ok(Self { recording, header, computed })
     }
 
+    /// Counts as so manieth recording at its path, from one.
+    pub(crate) fn count_as(&mut self, count: u64) {
+        self.header.run = count;
+    }
+
     /// What the page is told first.
     pub fn header(&self) -> &Header {
         &self.header
@@ -88,6 +93,9 @@ impl Stored {
             || self.header.arrays.iter().any(|array| array.name == name);
         if !grows {
             return Err(RecordError::NoSuchArray { name: name.to_owned() }.into());
+        }
+        if rows.start > rows.end || rows.end > self.rows() {
+            return Err(RecordError::NoSuchRows { from: rows.start, to: rows.end, rows: self.rows() }.into());
         }
         let kept = || kept_rows(rows.clone(), every);
         if let Some(bytes) = self.computed.as_ref().and_then(|computed| computed.blob(name, kept())) {

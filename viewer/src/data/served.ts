@@ -3,7 +3,7 @@
 import { type FieldMap, Fields, mapIn } from "./fields";
 import { checkedHeader, type Header } from "./header";
 import { Network, type Samples } from "./network";
-import { Recording } from "./recording";
+import { Recording, type Track } from "./recording";
 import type { Listener, Source } from "./source";
 
 const POLL_MS = 1000;
@@ -18,17 +18,24 @@ export function servedRecording(first: Header): Source {
   return new Served(first);
 }
 
+/** What is known of a recording before its rows are. */
+function announced(header: Header): Recording {
+  const recording = new Recording(header);
+  // Of one body alone a mean tells nothing.
+  if (header.bodies.length > 1) recording.fields = new Fields(servedMap);
+  if (header.network) recording.network = new Network(forcesFrom(recording));
+  return recording;
+}
+
 class Served implements Source {
   readonly control = null;
   private recording: Recording;
   private listener: Listener | null = null;
   private timer = 0;
+  private begun = false;
 
   constructor(first: Header) {
-    this.recording = new Recording(first);
-    // Of one body alone a mean tells nothing.
-    if (first.bodies.length > 1) this.recording.fields = new Fields(servedMap);
-    if (first.network) this.recording.network = new Network(forcesFrom(this.recording));
+    this.recording = announced(first);
   }
 
   async start(listener: Listener): Promise<void> {
@@ -44,6 +51,7 @@ class Served implements Source {
       }),
     );
     await this.portion();
+    this.begun = true;
     listener.begun(recording);
     await this.rest();
   }
@@ -79,7 +87,16 @@ class Served implements Source {
 
   private async poll(): Promise<void> {
     try {
-      this.recording.header = await servedHeader();
+      const header = await servedHeader();
+      if (this.listener && (header.run !== this.recording.header.run || !this.begun)) {
+        // Another recording stands in its place.
+        this.recording = announced(header);
+        this.begun = false;
+        this.listener.found();
+        await this.start(this.listener);
+        return;
+      }
+      this.recording.header = header;
     } catch (error) {
       this.lose(error);
       return;
@@ -90,19 +107,24 @@ class Served implements Source {
 
   private async portion(): Promise<void> {
     const { recording } = this;
-    const { rows, arrays } = recording.header;
+    const { rows } = recording.header;
+    // What is computed of a short recording is no longer offered of a long one.
+    const offered = new Set(recording.header.arrays.map((array) => array.name));
+    const arrays = [...recording.tracks.values()].filter((track) => offered.has(track.spec.name));
     const from = recording.rows;
-    const rowBytes = 8 + 4 * arrays.reduce((sum, array) => sum + array.stride, 0);
+    const rowBytes = 8 + 4 * arrays.reduce((sum, track) => sum + track.stride, 0);
     const to = Math.min(rows, from + Math.max(1, Math.floor(PORTION_BYTES / rowBytes)));
     const query = `?from=${from}&to=${to}`;
     const [time, ...values] = await Promise.all([
       bytes(`time${query}`),
-      ...arrays.map((array) => bytes(array.name + query)),
+      ...arrays.map((track) => bytes(track.spec.name + query)),
     ]);
+    const there = new Map(arrays.map((track, k) => [track, new Float32Array(values[k])]));
+    const unknown = (track: Track) => new Float32Array((to - from) * track.stride).fill(Number.NaN);
     recording.put(
       from,
       new Float64Array(time),
-      values.map((value) => new Float32Array(value)),
+      [...recording.tracks.values()].map((track) => there.get(track) ?? unknown(track)),
     );
   }
 

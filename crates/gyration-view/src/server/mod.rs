@@ -34,10 +34,10 @@ use axum::routing::get;
 pub use connections::Limits;
 use serde::Deserialize;
 use serde_json::json;
-use shown::{BadRequest, Shown, apart, opened_anew};
+use shown::{BadRequest, Shown, ShownRecording, apart};
 use std::future::Future;
 use std::net::{Ipv4Addr, TcpListener};
-use std::sync::{Arc, RwLock};
+use std::sync::Arc;
 
 /// What is shown.
 pub enum PageSource {
@@ -86,7 +86,7 @@ impl Server {
     pub fn serve(self, source: PageSource, end: impl Future<Output = ()>) -> Result<(), ViewError> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().map_err(ViewError::Server)?;
         let shown = match source {
-            PageSource::Recording(stored) => Shown::Recording(RwLock::new(Arc::from(stored))),
+            PageSource::Recording(stored) => Shown::Recording(ShownRecording::of(*stored)),
             PageSource::Live(live) => Shown::Live(live),
         };
         let router = router(Arc::new(shown), self.address);
@@ -133,7 +133,7 @@ async fn index() -> Response {
 async fn header_of(State(shown): State<Arc<Shown>>) -> Result<Response, BadRequest> {
     let json = match &*shown {
         Shown::Live(_) => json!({ "protocol": gyration_page::header::PROTOCOL, "mode": "live" }),
-        Shown::Recording(known) => opened_anew(known)?.header().to_json(),
+        Shown::Recording(known) => known.opened_anew()?.header().to_json(),
     };
     Ok(([(header::CONTENT_TYPE, "application/json")], json.to_string()).into_response())
 }

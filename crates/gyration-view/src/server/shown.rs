@@ -8,13 +8,13 @@ use axum::response::{IntoResponse, Response};
 use gyration_record::RecordError;
 use gyration_scene::Scene;
 use gyration_threads::Interruption;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, PoisonError, RwLock};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
 /// What requests share.
 pub(super) enum Shown {
-    /// Opened again whenever its header is asked for: it may grow.
-    Recording(RwLock<Arc<Stored>>),
+    /// Opened again whenever its header is asked for: it may grow, or another one stand in its place.
+    Recording(ShownRecording),
     Live(Live),
 }
 
@@ -22,35 +22,65 @@ impl Shown {
     /// The recording that is shown, as it was when its header was asked for last.
     pub(super) fn stored(&self) -> Option<Arc<Stored>> {
         match self {
-            Self::Recording(stored) => Some(Arc::clone(&stored.read().unwrap_or_else(PoisonError::into_inner))),
+            Self::Recording(shown) => Some(shown.stored()),
             Self::Live(_) => None,
         }
     }
 
-    /// The scene of what is shown, ready to run; that of a recording is `known` once it was asked for.
-    pub(super) fn scene(&self, known: Option<&Arc<Scene>>) -> Result<Arc<Scene>, BadRequest> {
-        match (self, known) {
-            (Self::Live(live), _) => live.scene().ok_or_else(|| {
+    /// The scene of what is shown, ready to run.
+    pub(super) fn scene(&self) -> Result<Arc<Scene>, BadRequest> {
+        match self {
+            Self::Live(live) => live.scene().ok_or_else(|| {
                 BadRequest(StatusCode::SERVICE_UNAVAILABLE, "the scene is being looked at: ask again".to_owned())
             }),
-            (Self::Recording(_), Some(scene)) => Ok(Arc::clone(scene)),
-            (Self::Recording(stored), None) => {
-                let stored = Arc::clone(&stored.read().unwrap_or_else(PoisonError::into_inner));
-                Ok(Arc::new(stored.scene()?))
+            Self::Recording(shown) => {
+                let stored = Arc::clone(&shown.stored.read().unwrap_or_else(PoisonError::into_inner));
+                let mut scene = shown.scene.lock().unwrap_or_else(PoisonError::into_inner);
+                match scene.as_ref().filter(|(of, _)| of.recording().is_same_as(stored.recording())) {
+                    Some((_, known)) => Ok(Arc::clone(known)),
+                    None => {
+                        let found = Arc::new(stored.scene()?);
+                        *scene = Some((stored, Arc::clone(&found)));
+                        Ok(found)
+                    }
+                }
             }
         }
     }
 }
 
-/// A recording as it is on disk now: the one that is known where nothing has come, so that what was made of it holds.
-pub(super) fn opened_anew(known: &RwLock<Arc<Stored>>) -> Result<Arc<Stored>, ViewError> {
-    let path = known.read().unwrap_or_else(PoisonError::into_inner).path().to_path_buf();
-    let fresh = Stored::open(&path)?;
-    let mut known = known.write().unwrap_or_else(PoisonError::into_inner);
-    if known.header() != fresh.header() {
-        *known = Arc::new(fresh);
+/// A recording that is shown.
+pub(super) struct ShownRecording {
+    stored: RwLock<Arc<Stored>>,
+    /// Its scene, once it was asked for.
+    scene: Mutex<Option<(Arc<Stored>, Arc<Scene>)>>,
+    /// Counts from one the recordings that stood at its path.
+    count: AtomicU64,
+}
+
+impl ShownRecording {
+    pub(super) fn of(stored: Stored) -> Self {
+        Self { stored: RwLock::new(Arc::new(stored)), scene: Mutex::default(), count: AtomicU64::new(1) }
     }
-    Ok(Arc::clone(&known))
+
+    /// As it was when its header was asked for last.
+    fn stored(&self) -> Arc<Stored> {
+        Arc::clone(&self.stored.read().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// As it is on disk now: the one that is known where nothing has come, so that what was made of it holds. Another
+    /// one in its place counts as another run.
+    pub(super) fn opened_anew(&self) -> Result<Arc<Stored>, ViewError> {
+        let mut fresh = Stored::open(self.stored().path())?;
+        let mut known = self.stored.write().unwrap_or_else(PoisonError::into_inner);
+        let is_same = known.recording().is_same_as(fresh.recording());
+        let count = self.count.fetch_add(u64::from(!is_same), Ordering::Relaxed) + u64::from(!is_same);
+        fresh.count_as(count);
+        if !is_same || known.header() != fresh.header() {
+            *known = Arc::new(fresh);
+        }
+        Ok(Arc::clone(&known))
+    }
 }
 
 /// A request that cannot be met, in words.
@@ -139,13 +169,22 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("fall.gyr");
         record(&path, 0.02);
-        let first = Arc::new(Stored::open(&path).unwrap());
-        let known = RwLock::new(Arc::clone(&first));
-        assert!(Arc::ptr_eq(&opened_anew(&known).unwrap(), &first));
-        std::fs::remove_dir_all(&path).unwrap();
+        let shown = ShownRecording::of(Stored::open(&path).unwrap());
+        let first = shown.stored();
+        assert!(Arc::ptr_eq(&shown.opened_anew().unwrap(), &first));
+        // One of the same scene is another one, too: what stands there now is read.
+        std::fs::rename(&path, folder.path().join("aside.gyr")).unwrap();
+        record(&path, 0.02);
+        let second = shown.opened_anew().unwrap();
+        assert_eq!([first.header().run, second.header().run], [1, 2]);
+        assert!(Arc::ptr_eq(&shown.stored(), &second) && second.blob("time", 0..3, 1).is_ok());
+        let shown = Shown::Recording(shown);
+        let scene = shown.scene().unwrap();
+        assert!(Arc::ptr_eq(&shown.scene().unwrap(), &scene));
+        std::fs::rename(&path, folder.path().join("another.gyr")).unwrap();
         record(&path, 0.03);
-        let second = opened_anew(&known).unwrap();
-        assert_eq!([first.rows(), second.rows()], [3, 4]);
-        assert!(Arc::ptr_eq(&known.read().unwrap(), &second));
+        let Shown::Recording(known) = &shown else { unreachable!() };
+        assert_eq!(known.opened_anew().unwrap().rows(), 4);
+        assert!(!Arc::ptr_eq(&shown.scene().unwrap(), &scene));
     }
 }

@@ -32,7 +32,7 @@ impl Lattice {
     fn waves(&self) -> Result<Arc<Waves>, BadRequest> {
         // A thread that died with it locked left it whole.
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let scene = self.shown.scene(known.as_ref().map(|waves| waves.scene()))?;
+        let scene = self.shown.scene()?;
         if let Some(waves) = known.as_ref().filter(|waves| Arc::ptr_eq(waves.scene(), &scene)) {
             return Ok(Arc::clone(waves));
         }
