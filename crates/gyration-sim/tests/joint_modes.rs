@@ -261,3 +261,40 @@ fn run_from_the_shape_of_a_mode_comes_back_after_its_period() {
         assert!((ratio - 8.0).abs() < 0.1, "{ratio}");
     }
 }
+
+/// Supports and anchors that move are held where they are at t = 0, joints and springs to them, too: a rod hangs on a
+/// shaker that turns back just then, and a ball on a spring whose anchor leaves with 1 m/s.
+#[test]
+fn what_hangs_on_a_moving_support_or_anchor_rests_as_if_that_were_held() {
+    let shaker = "[[support]]\nname = \"shaker\"\nplane = {}\nmotion = { oscillate = { direction = [0, 0, 1], \
+                  amplitude = 0.02, frequency = 9, phase = \"90 deg\" } }\n";
+    let scene = format!(
+        "{TIME}{shaker}{}{}",
+        rod("rod", 1.0, [0.0, -0.48], 0.0),
+        hinge("h", ["shaker", "rod"], [[0.0; 3], [0.0, 0.0, 0.5]])
+    );
+    let swing = of_body(&scene);
+    assert_close("on a shaker", swing[0].frequency, (GRAVITY * 0.5 / (INERTIA + 0.25)).sqrt(), 1e-9);
+    let scene = format!(
+        "world = {{ gravity = [0, 0, 0] }}\n{TIME}[[body]]\nname = \"a\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = 2\n\
+         keep = {{ line = [1, 0, 0] }}\nspring = [{{ anchor = [1, 0, 0], stiffness = 50, rest_length = 1, damping = 3, \
+         anchor_motion = {{ velocity = [1, 0, 0] }} }}]\n"
+    );
+    let SceneModes { bodies, .. } = modes(&parsed(&scene, &[]));
+    let rest = bodies[0].rest_state.as_ref().unwrap_or_else(|| panic!("{:?}", bodies[0].no_rest_state_because));
+    assert!(rest.place.position[0].abs() < 1e-12, "{:?}", rest.place.position);
+}
+
+/// Nothing resists that a body turns: what rounding leaves of that is no growth, whatever attitude it begins in.
+#[test]
+fn a_viscous_body_that_begins_turned_is_free_to_turn() {
+    for material in ["neo_hookean = { shear = 3000, bulk = 8000 }", "mooney_rivlin = { c1 = 900, c2 = 300 }"] {
+        let scene = format!(
+            "world = {{ gravity = [0, 0, 0] }}\n{TIME}[[body]]\nname = \"a\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\n\
+             density = 1000\naffine = {{ material = {{ {material} }}, viscosity = 20 }}\n\
+             orientation = {{ axis_angle = {{ axis = [1, 2, 3], angle = 0.7 }} }}\n"
+        );
+        let free = of_body(&scene).iter().filter(|mode| mode.motion == "free").count();
+        assert_eq!(free, 6, "{material}: {:?}", of_body(&scene).iter().map(|mode| mode.motion).collect::<Vec<_>>());
+    }
+}

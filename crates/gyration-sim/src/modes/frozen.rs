@@ -83,7 +83,9 @@ impl FrozenSystem {
             bodies.push(body);
             numbers.extend(block);
         }
-        let mut alone = alone.with_bodies(bodies);
+        let springs = alone.springs().iter().map(|spring| spring.clone().held_at(start.time)).collect();
+        let joints = alone.joints().iter().map(|joint| joint.clone().held_at(start.time)).collect();
+        let mut alone = alone.with_bodies(bodies).with_springs(springs).with_joints(joints);
         if let Some(fluid) = &model.fluid {
             let [velocity, gradient] = fluid.signals().map(|signal| Signal::Constant(signal.at(start.time)));
             alone = alone.in_fluid(Fluid { velocity, gradient, ..(**fluid).clone() });

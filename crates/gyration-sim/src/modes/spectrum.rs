@@ -211,7 +211,9 @@ impl System {
             // Zero has no sign.
             [slow, fast].map(|value| C64::new(value + 0.0, 0.0))
         };
-        let motion = judge(&eigenvalues, 0.0, !self.bound(i));
+        // What resists a free turn is rounding of what resists strains.
+        let rounding = if self.bound(i) { 0.0 } else { NOISE * self.resistance.amax() };
+        let motion = judge(&eigenvalues, rounding, !self.bound(i));
         let shape = DVector::from_element(1, C64::new(1.0, 0.0));
         EigenMotion {
             eigenvalues: eigenvalues.to_vec(),

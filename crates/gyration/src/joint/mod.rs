@@ -182,6 +182,12 @@ impl Joint {
         Self { anchor: Anchor { motion, ..self.anchor }, ..self }
     }
 
+    /// The same joint to the place where it is at a time [s], held there.
+    #[must_use]
+    pub fn held_at(self, time: f64) -> Self {
+        Self { anchor: self.anchor.held_at(time), ..self }
+    }
+
     /// The same joint with what acts along what it leaves free.
     #[must_use]
     pub fn driven(self, motor: Motor) -> Self {

@@ -136,6 +136,12 @@ impl Anchor {
         Self { start: place, motion: Arc::default() }
     }
 
+    /// The same, held where it is at a time [s].
+    #[must_use]
+    pub fn held_at(self, time: f64) -> Self {
+        if self.motion.is_fixed() { self } else { Self { motion: Arc::new(self.motion.held_at(time)), ..self } }
+    }
+
     /// Where it is at a time [s], and how it moves there.
     pub fn at(&self, time: f64) -> (Vec3, Vec3) {
         if self.motion.is_fixed() {
@@ -144,6 +150,18 @@ impl Anchor {
         let carried = self.motion.carriage(time);
         let place = carried.place(&self.start);
         (place, carried.velocity_at(&place))
+    }
+}
+
+impl Spring {
+    /// The same to an anchor that is held where it is at a time [s].
+    #[must_use]
+    pub fn held_at(self, time: f64) -> Self {
+        let held = |end| match end {
+            Attachment::Anchor(anchor) => Attachment::Anchor(anchor.held_at(time)),
+            body @ Attachment::Body { .. } => body,
+        };
+        Self { ends: self.ends.map(held), ..self }
     }
 }
 

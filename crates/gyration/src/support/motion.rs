@@ -40,6 +40,8 @@ pub enum MotionPart {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SupportMotion {
     parts: Vec<MotionPart>,
+    /// The time [s] from whose place it does not move, if it is held there.
+    held: Option<f64>,
 }
 
 /// Where points of a support have come to, and how they move there: x = R x₀ + b, ẋ = ḃ + ω × (x − b).
@@ -104,7 +106,13 @@ impl MotionPart {
 impl SupportMotion {
     /// The sum of some motions.
     pub fn new(parts: Vec<MotionPart>) -> Self {
-        Self { parts }
+        Self { parts, held: None }
+    }
+
+    /// The same, at rest at all times where it has come to at one [s].
+    #[must_use]
+    pub fn held_at(&self, time: f64) -> Self {
+        Self { parts: self.parts.clone(), held: self.held.or(Some(time)) }
     }
 
     /// What adds up to it.
@@ -112,7 +120,12 @@ impl SupportMotion {
         &self.parts
     }
 
-    /// Whether it is at rest.
+    /// What adds up to its rates: nothing once it is held.
+    fn moving(&self) -> &[MotionPart] {
+        if self.held.is_some() { &[] } else { &self.parts }
+    }
+
+    /// Whether it is at rest where it was before any motion.
     pub fn is_fixed(&self) -> bool {
         self.parts.is_empty()
     }
@@ -124,22 +137,23 @@ impl SupportMotion {
 
     /// Whether it moves to and fro.
     pub fn oscillates(&self) -> bool {
-        self.parts.iter().any(|part| matches!(part, MotionPart::Oscillation { .. }))
+        self.held.is_none() && self.parts.iter().any(|part| matches!(part, MotionPart::Oscillation { .. }))
     }
 
     /// The displacement [m] by its translations at time t.
     pub fn displacement(&self, time: f64) -> Vec3 {
+        let time = self.held.unwrap_or(time);
         self.parts.iter().map(|part| part.displacement(time)).sum()
     }
 
     /// The velocity [m/s] of its translations at time t.
     pub fn velocity(&self, time: f64) -> Vec3 {
-        self.parts.iter().map(|part| part.velocity(time)).sum()
+        self.moving().iter().map(|part| part.velocity(time)).sum()
     }
 
     /// The acceleration [m/s²] of its translations at time t.
     pub fn acceleration(&self, time: f64) -> Vec3 {
-        self.parts.iter().map(|part| part.acceleration(time)).sum()
+        self.moving().iter().map(|part| part.acceleration(time)).sum()
     }
 
     /// Where its points have come to at time t, and how they move.
@@ -147,8 +161,9 @@ impl SupportMotion {
         let mut carried = Carriage::AT_REST;
         for part in &self.parts {
             if let MotionPart::Rotation { axis, point, rate } = part {
-                let turn = Quaternion::from_axis_angle(axis, rate * time).rotation();
-                carried = carried.turned(&turn, point, &(*rate * axis));
+                let turn = Quaternion::from_axis_angle(axis, rate * self.held.unwrap_or(time)).rotation();
+                let spin = if self.held.is_some() { Vec3::zeros() } else { *rate * axis };
+                carried = carried.turned(&turn, point, &spin);
             }
         }
         carried.shift += self.displacement(time);
@@ -162,13 +177,13 @@ impl SupportMotion {
             MotionPart::Oscillation { frequency, amplitude, .. } if *amplitude != 0.0 => frequency.abs(),
             MotionPart::Oscillation { .. } | MotionPart::Velocity(_) | MotionPart::Rotation { .. } => 0.0,
         };
-        self.parts.iter().map(of).fold(0.0, f64::max)
+        self.moving().iter().map(of).fold(0.0, f64::max)
     }
 
     /// Bounds on the translations.
     pub fn translation_bound(&self) -> MotionBound {
         let mut bound = MotionBound::default();
-        for part in &self.parts {
+        for part in self.moving() {
             match part {
                 MotionPart::Velocity(velocity) => bound.speed += velocity.norm(),
                 MotionPart::Oscillation { amplitude, frequency, direction, .. } => {
@@ -188,7 +203,7 @@ impl SupportMotion {
     pub fn bound(&self, start: &Vec3) -> MotionBound {
         let (mut bound, translation) = (MotionBound::default(), self.translation_bound());
         let mut last: Option<(Vec3, f64)> = None;
-        for part in &self.parts {
+        for part in self.moving() {
             let MotionPart::Rotation { axis, point, rate } = part else { continue };
             // Any point of the axis does: the nearest one to the start of the first turn.
             let (center, distance) = match last {
