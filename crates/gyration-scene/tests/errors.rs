@@ -378,6 +378,13 @@ fn errors_of_bodies_stand_at_their_place() {
             "give the part",
         ),
         (
+            format!("[[support]]\nname = \"s\"\nshape = {{ union = {{ parts = [{{ density = 1, {sphere} }}, \
+                §{{ {sphere} }}] }} }}"),
+            "support.s.shape.union.parts.1.density",
+            "no density",
+            "give each of its parts",
+        ),
+        (
             format!(
                 "[[body]]\nname = \"b\"\n{sphere}\nmass_properties = {{ mass = 1, euler_tensor = §[[1, 0, 0], [0, 1, 0], [0, 0, -1]] }}"
             ),
