@@ -46,7 +46,6 @@ fn balances_close_in_scenes_of_all_kinds() {
     let names = [
         "active-chain",
         "affine-chain",
-        "basset",
         "cells",
         "contact-chain",
         "crawl",
@@ -166,6 +165,9 @@ fn what_cannot_be_averaged_is_refused() {
     let at = FieldPoints::At(vec![Vec3::zeros()]);
     assert!(matches!(fields(&scene(&text), 0.1, &at), Err(NoFields::NoPairs)));
     assert!(fields(&scene(&with_pairs(&text)), 0.1, &at).is_ok());
+    let remembers = "time = { end = 0.01, sample = 0.01 }\nfluid = { viscosity = 0.5, density = 900 }\n[[body]]\nname = \"a\"\n\
+                     shape = { sphere = { radius = 0.03 } }\ndensity = 1000\ninclusion = { history = true }\n";
+    assert!(matches!(fields(&scene(remembers), 0.1, &at), Err(NoFields::Remembers)));
     assert!(matches!(fields(&scene(CUBES), f64::INFINITY, &at), Err(NoFields::Width(_))));
     for width in [1e-200, 1e308] {
         assert!(matches!(fields(&scene(CUBES), width, &at), Err(NoFields::Extent { .. })), "{width}");

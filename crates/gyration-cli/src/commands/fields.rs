@@ -47,7 +47,7 @@ pub fn execute(arguments: &FieldArguments) -> Result<u8, CliError> {
 fn refused(recording: &Recording, error: NoFields) -> CliError {
     let fix = match &error {
         NoFields::Replay(_) | NoFields::Interrupted => None,
-        NoFields::NoPairs => error.in_scene(),
+        NoFields::NoPairs | NoFields::Remembers => error.in_scene(),
         NoFields::Width(_) | NoFields::Extent { .. } | NoFields::Wide { .. } => {
             Some("write --width with a length in metres, about the distance of bodies")
         }

@@ -70,6 +70,9 @@ pub enum NoFields {
     /// Bodies meet, and what they do to one another was not recorded.
     #[error("bodies meet in the scene, and what they do to one another was not recorded")]
     NoPairs,
+    /// What the fluid remembers is in no row, and forces go by it.
+    #[error("the fluid remembers how a body moved (`history`), which is not recorded, and forces go by it")]
+    Remembers,
     /// The width is no length.
     #[error("the width {0} m is not a finite length above zero")]
     Width(f64),
@@ -110,8 +113,11 @@ pub enum NoFields {
 impl NoFields {
     /// What a scene must say for its runs to have them; none where it is not the scene that lacks it.
     pub fn in_scene(&self) -> Option<&'static str> {
-        let lacks = matches!(self, Self::NoPairs);
-        lacks.then_some("write record = { pairs = true } in the scene, and run it anew")
+        match self {
+            Self::NoPairs => Some("write record = { pairs = true } in the scene, and run it anew"),
+            Self::Remembers => Some("write history = false in the scene, and run it anew"),
+            _ => None,
+        }
     }
 }
 

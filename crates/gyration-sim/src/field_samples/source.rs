@@ -24,6 +24,9 @@ impl FieldSource {
         if meet && recording.ragged().is_none() {
             return Err(NoFields::NoPairs);
         }
+        if replay.model().bodies.iter().any(|body| body.history().is_some()) {
+            return Err(NoFields::Remembers);
+        }
         Ok(Self { recording: recording.clone(), replay })
     }
 
