@@ -254,6 +254,10 @@ impl Batch {
         let index = body_index(self.members[0].model(), body)?;
         let which = chosen(members, self.members.len())?;
         let drives = numbers_of_members("drive", drive, which.len(), &[3, 3])?;
+        // Before any of them is set.
+        if let Some(number) = drives.iter().find(|number| !number.is_finite()) {
+            return Err(errors::arguments(format!("`drive` holds {number}\n  fix: give finite numbers [Pa]")));
+        }
         for (member, drive) in which.iter().zip(drives.as_chunks::<9>().0) {
             let set = self.members[*member].set_drive(index, Mat3::from_row_slice(drive));
             set.map_err(|refusal| errors::arguments(refusal.to_string()))?;

@@ -56,6 +56,14 @@ pub fn fields<'py>(
         (None, Some(counts)) => FieldPoints::Grid(counts),
         (None, None) => FieldPoints::Usual,
     };
+    if let FieldPoints::At(points) = &points
+        && points.iter().flat_map(|point| point.iter()).any(|number| !number.is_finite())
+    {
+        return Err(errors::arguments("`at` holds a number that is not finite\n  fix: give points in metres"));
+    }
+    if every == 0 {
+        return Err(errors::arguments("`every` is 0\n  fix: give a number from 1"));
+    }
     let inner = recording.inner.clone();
     let found = interruptibly(py, || FieldSurvey::of(&inner, width, &points, every))?;
     with_arrays(py, &json!(found.map_err(|error| errors::arguments(error.to_string()))?))
@@ -97,6 +105,10 @@ pub fn orbit<'py>(
     amplitude: Option<(String, f64)>,
     shift: Option<Cells>,
 ) -> PyResult<Bound<'py, PyAny>> {
+    let chosen = energy.or(amplitude.as_ref().map(|(_, value)| *value));
+    if chosen.is_some_and(|value| !value.is_finite()) {
+        return Err(errors::arguments("`energy` and the value of `amplitude` are finite numbers"));
+    }
     let choice = match (energy, amplitude, period) {
         (Some(_), Some(_), _) => {
             return Err(errors::arguments("`energy` and `amplitude` do not go together"));

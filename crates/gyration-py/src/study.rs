@@ -46,14 +46,19 @@ fn open(source: &Bound<'_, PyAny>, changes: &[String], base: &Path) -> PyResult<
 #[pymethods]
 impl StudyWork {
     #[new]
-    #[pyo3(signature = (source, output, changes, resume, force))]
+    #[pyo3(signature = (source, output, changes, resume, force, threads=None, progress=None))]
     fn new(
         source: &Bound<'_, PyAny>,
         output: Option<PathBuf>,
         changes: Option<&Bound<'_, PyDict>>,
         resume: &Bound<'_, PyAny>,
         force: bool,
+        threads: Option<i64>,
+        progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
+        // What is wrong with these must not cost a table that is there.
+        workers(threads)?;
+        PythonMonitor::new(progress)?;
         let study = open(source, &overrides(changes)?, Path::new(""))?;
         let folder = output.unwrap_or_else(|| PathBuf::from(format!("{}.study", study.name())));
         let resume = match resume.extract::<bool>() {

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 import gyration
-from conftest import STUDY, table_bytes
+from conftest import BALL, STUDY, table_bytes
+from gyration._differentiable import Differentiable
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
 
@@ -27,6 +28,21 @@ def test_boundary_elements_are_computed_in_forked_processes():
         # Another shape: what is known already needs no threads.
         assert pool.apply_async(resistance_of, (0.012,)).get(timeout=120) == here[1]
         assert pool.apply_async(resistance_of, (0.013,)).get(timeout=120) > here[1]
+
+
+RUNS = []
+"""What a forked process finds here."""
+
+
+def differentiated(speed):
+    return float(RUNS[0].at([speed])[0][0])
+
+
+def test_a_differentiable_run_is_made_in_a_forked_process():
+    RUNS.append(Differentiable(BALL, ["body.ball.velocity.0"], ["ball.x"]))
+    here = differentiated(0.3)
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        assert pool.apply_async(differentiated, (0.4,)).get(timeout=120) > here
 
 
 SCRIPT = """

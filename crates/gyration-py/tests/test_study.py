@@ -370,3 +370,13 @@ def test_the_program_leaves_the_same_bytes(tmp_path, reference):
     subprocess.run(command, check=True)
     gyration.study(source, tmp_path / "package.study")
     assert table_bytes(folder) == table_bytes(tmp_path / "package.study")
+
+
+def test_a_wrong_argument_costs_no_table(tmp_path):
+    folder = tmp_path / "ball.study"
+    gyration.study(STUDY, folder)
+    before = table_bytes(folder)
+    for wrong in ({"threads": 0}, {"progress": 5}, {"executor": 7}, {"batch": 0}):
+        with pytest.raises(gyration.ArgumentError):
+            gyration.study(STUDY, folder, force=True, **wrong)
+        assert table_bytes(folder) == before, wrong

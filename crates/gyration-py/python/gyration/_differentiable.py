@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -21,14 +22,22 @@ class Differentiable:
     def __init__(self, scene: Any, keys: Sequence[str], quantities: Sequence[str]) -> None:
         self.scene = scene if isinstance(scene, _gyration.Scene) else opened(scene)
         self.keys, self.quantities = names("keys", keys), names("quantities", quantities)
+        known: dict[str, str] = {}
         for key in self.keys:
             # A key that the scene does not have is told here, not in the midst of a trace.
             self.scene[key]
+            first = known.setdefault(place(self.scene.resolved, key), key)
+            if first is not key:
+                raise ArgumentError(f"{first} and {key} are the same number\n  fix: leave one of them out")
         self._last: tuple[bytes, Array, Array] | None = None
+        self._begin()
+
+    def _begin(self) -> None:
         # The thread is begun here: XLA calls back with the smallest numbers flushed to zero, which a thread takes over from
         # whoever begins it, and with which no run comes off its first instant.
         self._thread = ThreadPoolExecutor(max_workers=1)
         self._thread.submit(int).result()
+        self._process = os.getpid()
 
     def at(self, x: npt.ArrayLike) -> tuple[Array, Array]:
         """The quantities, (m,), and their derivatives, (m, n), of a run with these numbers, (n,).
@@ -40,6 +49,9 @@ class Differentiable:
             raise ArgumentError(
                 f"an argument of the shape {numbers.shape}\n  fix: give {len(self.keys)} numbers, those of {', '.join(self.keys)}"
             )
+        if self._process != os.getpid():
+            # A fork has left the thread behind.
+            self._begin()
         return self._thread.submit(self._found, numbers).result()
 
     def _found(self, numbers: Array) -> tuple[Array, Array]:
@@ -52,6 +64,18 @@ class Differentiable:
                 raise RunError("there is no derivative by " + "; ".join(lost))
             self._last = (numbers.tobytes(), found["values"], found["derivatives"])
         return self._last[1].copy(), self._last[2].copy()
+
+
+def place(resolved: Any, key: str) -> str:
+    """A dotted key with numbers in the place of names: the same for the same value."""
+    words = []
+    for word in key.split("."):
+        if not isinstance(resolved, dict):
+            called = [item.get("name") if isinstance(item, dict) else None for item in resolved]
+            word = str(called.index(word) if word in called else int(word))
+        words.append(word)
+        resolved = resolved[word] if isinstance(resolved, dict) else resolved[int(word)]
+    return ".".join(words)
 
 
 def opened(scene: Any) -> _gyration.Scene:

@@ -347,6 +347,8 @@ class _Work:
         changes: dict[str, Any] | None,
         resume: bool | str,
         force: bool,
+        threads: int | None = None,
+        progress: _Progress = None,
     ) -> _Work: ...
     @property
     def source(self) -> tuple[str, str, os.PathLike[str], list[str], str]: ...

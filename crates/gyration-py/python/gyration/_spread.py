@@ -84,6 +84,14 @@ class Room:
         return self.ahead
 
 
+def check(executor: Any, batch: int | None) -> None:
+    """Refuses what is no executor, and batches without runs."""
+    if executor is not None and not callable(getattr(executor, "submit", None)):
+        raise ArgumentError(f"`executor` is {executor!r}\n  fix: give one with the interface of concurrent.futures, or leave it out")
+    if batch is not None and batch < 1:
+        raise ArgumentError(f"a batch of {batch} runs is none\n  fix: give `batch` from 1, or leave it out")
+
+
 def spread(
     work: Any, executor: Any, batch: int | None, progress: bool | Callable[[float, float], Any] | None
 ) -> None:
@@ -91,8 +99,6 @@ def spread(
 
     A batch that fails is given to the executor once more.
     """
-    if batch is not None and batch < 1:
-        raise ArgumentError(f"a batch of {batch} runs is none\n  fix: give `batch` from 1, or leave it out")
     back: queue.SimpleQueue[Any] = queue.SimpleQueue()
     waiting: dict[Any, list[int]] = {}
     lost: list[list[int]] = []

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 from gyration import _gyration
-from gyration._spread import spread
+from gyration._spread import check, spread
 
 __all__ = ["study"]
 
@@ -54,7 +54,8 @@ def study(
     fails is a row with a reason. Whatever ends a study early, finished rows are kept: ``StudyError`` and ``KeyboardInterrupt`` say how
     to go on.
     """
-    work = _gyration._Work(source, output, changes, resume, force)
+    check(executor, batch)
+    work = _gyration._Work(source, output, changes, resume, force, threads, progress)
     lock = work.lock
     _locks.add(lock)
     try:

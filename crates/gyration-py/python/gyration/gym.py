@@ -77,9 +77,10 @@ class Crawler(VectorEnv):
 
     An action is (stretch, shear) in [-1, 1], times ``strength`` [Pa] the drives Q_zz and Q_xz, held for ``dt`` [s]. An observation has
     13 numbers: the height of the centre over its start in block heights, P - I in the plane of the stroke (xx, xz, zx, zz), and G - I there;
-    the velocity of the centre (x, z) in block heights a second, and Pdot there (xz, zz) [1/s]. The reward is the way along x in the
-    interval, in block heights. An episode is truncated after ``steps`` intervals, and terminated where a block cannot go on
-    (``reasons`` in the infos), or where an entry of P - I or G - I in the plane is beyond ``strain``: there it runs away from its shape.
+    the velocity of the centre (x, z) in block heights a second, and Pdot there (xz, zz) [1/s]. A block height is twice that of the centre
+    over z = 0 at the start. The reward is the way along x in the interval, in block heights. An episode is truncated after ``steps``
+    intervals, and terminated where a block cannot go on (``reasons`` in the infos), or where an entry of P - I or G - I in the plane is
+    beyond ``strain``: there it runs away from its shape.
 
     A reset begins with velocities drawn by its seed, up to ``noise`` [m/s]. With ``threads`` the members are shared out, on all cores
     without; results do not depend on it. ``ImportError`` says what to install.
@@ -116,6 +117,11 @@ class Crawler(VectorEnv):
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self._start = self._batch.position[0, 0].copy()
+        if not self._start[2] > 0:
+            raise ArgumentError(
+                f"the block starts at z = {self._start[2]} m, and ways are measured by its height over z = 0\n"
+                "  fix: move the scene up"
+            )
         self._made = np.zeros(num_envs, dtype=np.int64)
         self._over = np.zeros(num_envs, dtype=np.bool_)
 
