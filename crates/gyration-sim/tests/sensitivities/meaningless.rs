@@ -169,6 +169,7 @@ fn keys_and_quantities_that_are_none_are_refused_with_what_there_is() {
     assert!(told("body.ball.position", "ball.z").contains("several numbers"));
     assert!(told("body.ball.name", "ball.z").contains("no number"));
     assert!(told("body.ball.position.3", "ball.z").contains("0 to 2"));
-    assert!(told("body.ball.density", "ball.w").contains("ball.vz"));
+    assert!(told("body.ball.density", "ball.w").contains("did you mean `ball.x`?"));
+    assert!(told("body.ball.density", "colour").contains("ball.vz"));
     assert!(matches!(along("body.ball.density", "energy.residual"), SensitivityError::Quantity { .. }));
 }
