@@ -333,7 +333,7 @@ impl Batch {
         }
         let Some(place) = self.columns.iter().find(|(name, _)| name == column).map(|(_, place)| *place) else {
             let names = self.columns();
-            let fix = suggestion(column, names.iter().map(String::as_str), "besides `t` the columns are");
+            let fix = suggestion(column, names.iter().map(String::as_str), "columns besides `t`");
             return Err(PyKeyError::new_err(format!("there is no column `{column}`: {fix}")));
         };
         let rows = self.each(py, &self.all(), |_, run, _| Ok(run.row()?[place]))?;

@@ -146,12 +146,12 @@ impl Serialize for OrderedJson {
 }
 
 /// A step down from a table or a list.
-enum Within {
+enum KeyPart {
     Entry(String),
     Item(usize),
 }
 
-fn tree(object: &Bound<'_, PyAny>, place: &mut Vec<Within>) -> PyResult<OrderedJson> {
+fn tree(object: &Bound<'_, PyAny>, place: &mut Vec<KeyPart>) -> PyResult<OrderedJson> {
     check_depth(place.len())?;
     Ok(OrderedJson::Leaf(match plain(object)? {
         Plain::Bool(value) => value.into(),
@@ -162,12 +162,12 @@ fn tree(object: &Bound<'_, PyAny>, place: &mut Vec<Within>) -> PyResult<OrderedJ
         Plain::Real(value) => real(value, place)?,
         Plain::Text(text) => text.into(),
         Plain::List(items) => {
-            let item = |(number, item)| below(item, Within::Item(number), place);
+            let item = |(number, item)| below(item, KeyPart::Item(number), place);
             return Ok(OrderedJson::List(items.iter().enumerate().map(item).collect::<PyResult<_>>()?));
         }
         Plain::Table(entries) => {
             let entry = |(key, value): (String, Bound<'_, PyAny>)| {
-                let value = below(&value, Within::Entry(key.clone()), place)?;
+                let value = below(&value, KeyPart::Entry(key.clone()), place)?;
                 Ok((key, value))
             };
             return Ok(OrderedJson::Table(entries.into_iter().map(entry).collect::<PyResult<_>>()?));
@@ -175,14 +175,14 @@ fn tree(object: &Bound<'_, PyAny>, place: &mut Vec<Within>) -> PyResult<OrderedJ
     }))
 }
 
-fn below(object: &Bound<'_, PyAny>, step: Within, place: &mut Vec<Within>) -> PyResult<OrderedJson> {
+fn below(object: &Bound<'_, PyAny>, step: KeyPart, place: &mut Vec<KeyPart>) -> PyResult<OrderedJson> {
     place.push(step);
     let found = tree(object, place);
     place.pop();
     found
 }
 
-fn real(value: f64, place: &[Within]) -> PyResult<Value> {
+fn real(value: f64, place: &[KeyPart]) -> PyResult<Value> {
     let number = Number::from_f64(value).map(Value::Number);
     number.ok_or_else(|| {
         let steps: Vec<String> = place.iter().map(ToString::to_string).collect();
@@ -191,7 +191,7 @@ fn real(value: f64, place: &[Within]) -> PyResult<Value> {
     })
 }
 
-impl fmt::Display for Within {
+impl fmt::Display for KeyPart {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Entry(key) => formatter.write_str(key),

@@ -57,6 +57,10 @@ pub fn run_many(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Runs> {
     let keep = keep.map(Names::list);
+    // A scene and a dictionary of one go through their keys.
+    if scenes.is_instance_of::<Scene>() || scenes.is_instance_of::<PyDict>() {
+        return Err(errors::arguments("one scene in the place of many\n  fix: give a list of scenes"));
+    }
     let scenes = scenes.try_iter()?.map(|scene| Scene::ready(&scene?)).collect::<PyResult<Vec<Arc<Built>>>>()?;
     let threads = workers(threads)?.min(NonZeroUsize::new(scenes.len()).unwrap_or(NonZeroUsize::MIN));
     if let Some(keep) = &keep {
@@ -98,7 +102,7 @@ fn check_columns(scenes: &[Arc<Built>], keep: &[String]) -> PyResult<()> {
     }
     match keep.iter().find(|name| !all.contains(*name)) {
         Some(name) if !scenes.is_empty() => {
-            let fix = suggestion(name, all.iter().map(String::as_str), "choose of");
+            let fix = suggestion(name, all.iter().map(String::as_str), "columns");
             Err(errors::arguments(format!("no scene has the column `{name}`\n  fix: {fix}")))
         }
         _ => Ok(()),
@@ -266,7 +270,7 @@ impl Runs {
         };
         if !self.columns().iter().any(|known| known == column) {
             let names = self.columns();
-            let fix = suggestion(column, names.iter().map(String::as_str), "the columns are");
+            let fix = suggestion(column, names.iter().map(String::as_str), "columns");
             return Err(PyKeyError::new_err(format!("there is no column `{column}`: {fix}")));
         }
         array(py, self.endings.iter().map(of).collect(), &[self.endings.len()])

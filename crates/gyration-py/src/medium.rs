@@ -107,7 +107,7 @@ pub fn orbit<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let chosen = energy.or(amplitude.as_ref().map(|(_, value)| *value));
     if chosen.is_some_and(|value| !value.is_finite()) {
-        return Err(errors::arguments("`energy` and the value of `amplitude` are finite numbers"));
+        return Err(errors::arguments("an energy or amplitude that is not finite\n  fix: give it in SI units"));
     }
     let choice = match (energy, amplitude, period) {
         (Some(_), Some(_), _) => {

@@ -6,7 +6,7 @@ use crate::convert::{Names, array as numpy, object};
 use crate::errors;
 use crate::picture::{Picture, PictureSource};
 use gyration_record::{ArrayInfo, Recording as Inner};
-use gyration_scene::{listed, suggestion};
+use gyration_scene::suggestion;
 use gyration_sim::RunSummary;
 use gyration_sim::replay::ReplayError;
 use gyration_view::{Stored, report};
@@ -79,11 +79,10 @@ impl Recording {
 
     pub fn no_such(&self, name: &str) -> PyErr {
         let columns: Vec<&str> = self.inner.columns().collect();
-        let arrays = listed(self.numbers().map(|array| array.name.as_str()));
-        let fix = suggestion(name, columns.iter().copied(), "besides `t` its columns are");
-        PyKeyError::new_err(format!(
-            "the recording has no `{name}`: {fix}; its arrays are {arrays} (`BODY.ARRAY` for one body)"
-        ))
+        let arrays: Vec<&str> = self.numbers().map(|array| array.name.as_str()).collect();
+        let names = arrays.iter().chain(&columns).copied();
+        let fix = suggestion(name, names, "arrays (`BODY.ARRAY` for one body) and columns");
+        PyKeyError::new_err(format!("the recording has no `{name}`: {fix}"))
     }
 }
 

@@ -275,7 +275,7 @@ impl Simulation {
         }
         let Some((_, place)) = self.columns.iter().find(|(name, _)| name == column) else {
             let names = self.columns();
-            let fix = suggestion(column, names.iter().map(String::as_str), "besides `t` the columns are");
+            let fix = suggestion(column, names.iter().map(String::as_str), "columns besides `t`");
             return Err(PyKeyError::new_err(format!("there is no column `{column}`: {fix}")));
         };
         let row = self.stepper.row().map_err(|stop| errors::stopped(&stop))?;

@@ -49,7 +49,7 @@ def test_edits_hold_tables_texts_and_flags(ball):
     assert edited.title == 'so "quoted"'
 
 
-def test_keys_of_a_scene_are_counted_and_asked_for(ball):
+def test_keys_of_a_scene_are_listed_and_asked_for(ball):
     keys = list(ball)
     assert "body.ball.density" in keys and "body.ball.density" in ball and "body.ball.colour" not in ball
     assert all(key in ball for key in keys)

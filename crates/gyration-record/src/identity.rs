@@ -4,11 +4,11 @@ use std::path::Path;
 use std::time::SystemTime;
 
 /// What tells a folder from all others that may stand at its path: when it was made, and its number on the disk where
-/// there are such. Numbers are given again to what comes later.
+/// there are such. Numbers are given again to what comes later; disks that are far away may have others after a while.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Identity {
     created: Option<SystemTime>,
-    number: Option<[u64; 2]>,
+    number: Option<u64>,
 }
 
 impl Identity {
@@ -20,12 +20,12 @@ impl Identity {
 }
 
 #[cfg(unix)]
-fn number(metadata: &std::fs::Metadata) -> Option<[u64; 2]> {
+fn number(metadata: &std::fs::Metadata) -> Option<u64> {
     use std::os::unix::fs::MetadataExt;
-    Some([metadata.dev(), metadata.ino()])
+    Some(metadata.ino())
 }
 
 #[cfg(not(unix))]
-fn number(_: &std::fs::Metadata) -> Option<[u64; 2]> {
+fn number(_: &std::fs::Metadata) -> Option<u64> {
     None
 }

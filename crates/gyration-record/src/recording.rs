@@ -48,11 +48,12 @@ impl Recording {
     /// # Errors
     /// `Missing`, `NotARecording`, `Version`, `Io`.
     pub fn open(path: &Path) -> Result<Self, RecordError> {
+        // Of the folder first: one that takes its place while this reads is another one.
         let chunks = LastChunks::of(path);
         Ok(Self { path: path.to_path_buf(), group: disk::read_group(path)?, source: Source::Disk(chunks) })
     }
 
-    /// The recording at a path of which the metadata are known.
+    /// The recording at a path of which the metadata are known, while nobody else writes there.
     pub(crate) fn of_group(path: &Path, group: Group) -> Self {
         Self { path: path.to_path_buf(), group, source: Source::Disk(LastChunks::of(path)) }
     }

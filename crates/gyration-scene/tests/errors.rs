@@ -382,7 +382,7 @@ fn errors_of_bodies_stand_at_their_place() {
                 §{{ {sphere} }}] }} }}"),
             "support.s.shape.union.parts.1.density",
             "no density",
-            "give each of its parts",
+            "give the part",
         ),
         (
             format!(

@@ -38,9 +38,9 @@ impl Stored {
         Ok(Self { recording, header, computed })
     }
 
-    /// Counts as so manieth recording at its path, from one.
-    pub(crate) fn count_as(&mut self, count: u64) {
-        self.header.run = count;
+    /// Numbers it among the recordings that stood at its path, from one.
+    pub(crate) fn number(&mut self, number: u64) {
+        self.header.run = number;
     }
 
     /// What the page is told first.
@@ -119,7 +119,7 @@ impl Stored {
         let last = rows.end.saturating_sub(1);
         let chunk = self.recording.chunk_rows();
         let mut from = rows.start;
-        // An empty or impossible range is judged by the recording.
+        // An empty range is judged by the recording.
         if rows.start >= rows.end {
             self.recording.read_rows(name, rows)?;
             return Ok(());

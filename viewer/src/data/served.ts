@@ -50,7 +50,8 @@ class Served implements Source {
         recording.surfaces[k] = { points: new Float32Array(points), triangles: new Uint32Array(triangles) };
       }),
     );
-    await this.portion();
+    await this.portion(recording);
+    if (recording !== this.recording) return;
     this.begun = true;
     listener.begun(recording);
     await this.rest();
@@ -66,10 +67,11 @@ class Served implements Source {
     const { recording, listener } = this;
     if (!listener) return;
     try {
-      while (recording.rows < recording.header.rows) {
-        await this.portion();
+      while (recording === this.recording && recording.rows < recording.header.rows) {
+        await this.portion(recording);
         listener.grew();
       }
+      if (recording !== this.recording) return;
       recording.setEvents(new Float64Array(await bytes("events")));
       listener.grew();
     } catch (error) {
@@ -105,8 +107,7 @@ class Served implements Source {
     await this.rest();
   }
 
-  private async portion(): Promise<void> {
-    const { recording } = this;
+  private async portion(recording: Recording): Promise<void> {
     const { rows } = recording.header;
     // What is computed of a short recording is no longer offered of a long one.
     const offered = new Set(recording.header.arrays.map((array) => array.name));

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import weakref
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -16,6 +17,20 @@ from gyration._errors import ArgumentError, RunError
 Array = npt.NDArray[np.float64]
 
 
+_begun: weakref.WeakSet[Differentiable] = weakref.WeakSet()
+"""Those that have a thread in this process."""
+
+
+def _begin_again() -> None:
+    """Begins the threads that a fork has left behind."""
+    for run in list(_begun):
+        run._begin()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_begin_again)
+
+
 class Differentiable:
     """Quantities at the end of a run by numbers of the scene, in SI units: R^n to R^m."""
 
@@ -23,21 +38,22 @@ class Differentiable:
         self.scene = scene if isinstance(scene, _gyration.Scene) else opened(scene)
         self.keys, self.quantities = names("keys", keys), names("quantities", quantities)
         known: dict[str, str] = {}
+        resolved = self.scene.resolved
         for key in self.keys:
             # A key that the scene does not have is told here, not in the midst of a trace.
             self.scene[key]
-            first = known.setdefault(place(self.scene.resolved, key), key)
-            if first is not key:
-                raise ArgumentError(f"{first} and {key} are the same number\n  fix: leave one of them out")
+            number = place(resolved, key)
+            if number in known:
+                raise ArgumentError(f"{known[number]} and {key} are the same number\n  fix: leave one of them out")
+            known[number] = key
         self._last: tuple[bytes, Array, Array] | None = None
         self._begin()
+        _begun.add(self)
 
     def _begin(self) -> None:
-        # The thread is begun here: XLA calls back with the smallest numbers flushed to zero, which a thread takes over from
-        # whoever begins it, and with which no run comes off its first instant.
+        """Begins the thread: not in a call of XLA, whose smallest numbers are zero for whatever thread is begun there."""
         self._thread = ThreadPoolExecutor(max_workers=1)
         self._thread.submit(int).result()
-        self._process = os.getpid()
 
     def at(self, x: npt.ArrayLike) -> tuple[Array, Array]:
         """The quantities, (m,), and their derivatives, (m, n), of a run with these numbers, (n,).
@@ -49,9 +65,6 @@ class Differentiable:
             raise ArgumentError(
                 f"an argument of the shape {numbers.shape}\n  fix: give {len(self.keys)} numbers, those of {', '.join(self.keys)}"
             )
-        if self._process != os.getpid():
-            # A fork has left the thread behind.
-            self._begin()
         return self._thread.submit(self._found, numbers).result()
 
     def _found(self, numbers: Array) -> tuple[Array, Array]:

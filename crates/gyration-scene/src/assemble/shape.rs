@@ -117,7 +117,7 @@ impl ShapeBuilder<'_, '_> {
             _ => density,
         };
         if weight.is_none() {
-            let help = "give the part a `density`, or the body, or neither any part and the body its `mass`";
+            let help = "give the part a `density`, or a body, or neither any part and a body its `mass`";
             self.reporter.note(&key.key("density"), "the part has no density", help);
         }
         Some(UnionPart { shape: shape?, offset: si(&part.offset), rotation: turned?.rotation(), density: weight? })

@@ -4,7 +4,7 @@ use super::convex::convex_help;
 use super::orientation::orientation;
 use super::shape::ShapeBuilder;
 use crate::check::{PartialScene, Placed, Reporter, direction};
-use crate::file::{self, Motion, OneOrMany, Support};
+use crate::file::{Motion, OneOrMany, Support};
 use crate::key::Key;
 use crate::quantity::si;
 use gyration::Party;
@@ -91,19 +91,6 @@ fn plane(support: &Support) -> Option<Plane> {
     Some(Plane { name: support.name.clone(), origin: si(&plane.origin), normal, motion })
 }
 
-/// Reports parts without a density beside others that have one: together they tell where the centre of mass is, which
-/// stands at `position`.
-fn are_weighed_alike(union: &file::Union, parts: &Key, reporter: &mut Reporter<'_>) {
-    let weighs: Vec<bool> = union.parts.iter().map(file::Part::weighs).collect();
-    if weighs.contains(&true) {
-        for part in (0..weighs.len()).filter(|part| !weighs[*part]) {
-            let help =
-                "the centre of mass of a support stands at its position: give each of its parts a `density`, or none";
-            reporter.note(&parts.index(part).key("density"), "the part has no density, and others have", help);
-        }
-    }
-}
-
 /// A support with a shape.
 fn solid(
     placed: &Placed<Support>,
@@ -112,11 +99,10 @@ fn solid(
     reporter: &mut Reporter<'_>,
 ) -> Option<SolidSupport> {
     let Placed { key, value, .. } = placed;
-    if let Some(file::Shape::Union(union)) = &value.shape {
-        let parts = key.key("shape").key("union").key("parts");
-        are_weighed_alike(union, &parts, reporter);
-    }
-    let shape = ShapeBuilder { files, reporter }.shape(value.shape.as_ref()?, &key.key("shape"), Some(1.0))?;
+    let written = value.shape.as_ref()?;
+    // Parts of one density, or each with its own: they tell where the centre of mass is, which stands at `position`.
+    let density = (!written.weighs()).then_some(1.0);
+    let shape = ShapeBuilder { files, reporter }.shape(written, &key.key("shape"), density)?;
     if !is_solid(&shape, &key.key("shape"), reporter) {
         return None;
     }

@@ -42,7 +42,7 @@ impl Quantities {
                 return Err(fault("it is the error of the run, which has no derivative".into()));
             }
             let found = columns.iter().position(|column| column == name);
-            found.ok_or_else(|| fault(suggestion(name, order.iter().map(String::as_str), "the columns are")))
+            found.ok_or_else(|| fault(suggestion(name, order.iter().map(String::as_str), "columns")))
         };
         let places = names.iter().map(place).collect::<Result<_, _>>()?;
         let with_works = names.iter().any(|name| name.starts_with("work."));

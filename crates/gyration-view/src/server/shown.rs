@@ -8,7 +8,7 @@ use axum::response::{IntoResponse, Response};
 use gyration_record::RecordError;
 use gyration_scene::Scene;
 use gyration_threads::Interruption;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
 /// What requests share.
@@ -34,7 +34,7 @@ impl Shown {
                 BadRequest(StatusCode::SERVICE_UNAVAILABLE, "the scene is being looked at: ask again".to_owned())
             }),
             Self::Recording(shown) => {
-                let stored = Arc::clone(&shown.stored.read().unwrap_or_else(PoisonError::into_inner));
+                let stored = shown.stored();
                 let mut scene = shown.scene.lock().unwrap_or_else(PoisonError::into_inner);
                 match scene.as_ref().filter(|(of, _)| of.recording().is_same_as(stored.recording())) {
                     Some((_, known)) => Ok(Arc::clone(known)),
@@ -54,13 +54,11 @@ pub(super) struct ShownRecording {
     stored: RwLock<Arc<Stored>>,
     /// Its scene, once it was asked for.
     scene: Mutex<Option<(Arc<Stored>, Arc<Scene>)>>,
-    /// Counts from one the recordings that stood at its path.
-    count: AtomicU64,
 }
 
 impl ShownRecording {
     pub(super) fn of(stored: Stored) -> Self {
-        Self { stored: RwLock::new(Arc::new(stored)), scene: Mutex::default(), count: AtomicU64::new(1) }
+        Self { stored: RwLock::new(Arc::new(stored)), scene: Mutex::default() }
     }
 
     /// As it was when its header was asked for last.
@@ -74,8 +72,7 @@ impl ShownRecording {
         let mut fresh = Stored::open(self.stored().path())?;
         let mut known = self.stored.write().unwrap_or_else(PoisonError::into_inner);
         let is_same = known.recording().is_same_as(fresh.recording());
-        let count = self.count.fetch_add(u64::from(!is_same), Ordering::Relaxed) + u64::from(!is_same);
-        fresh.count_as(count);
+        fresh.number(known.header().run + u64::from(!is_same));
         if !is_same || known.header() != fresh.header() {
             *known = Arc::new(fresh);
         }
