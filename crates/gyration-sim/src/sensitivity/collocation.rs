@@ -6,7 +6,8 @@
 //! Z_i − J_i Z_i = J_i S₀ + b_i: one LU for all columns, and one for each block of J, which do not touch
 //! (`stage_equations`). The rate K = S′ of the step is a polynomial of degree four; how fast its Legendre coefficients
 //! κ₀ … κ₄ fall tells how well the step is resolved. Source: Hairer, Wanner, *Solving Ordinary Differential Equations
-//! II*, §IV.5.
+//! II*, §IV.5; Parlett, Reinsch, *Balancing a matrix for calculation of eigenvalues and eigenvectors*, Numer. Math. 13
+//! (1969).
 
 use super::stage_equations::{STAGES, Square, StageEquations};
 use nalgebra::DMatrix;

@@ -40,7 +40,7 @@ pub enum MotionPart {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SupportMotion {
     parts: Vec<MotionPart>,
-    /// The time [s] from whose place it does not move, if it is held there.
+    /// The time [s] from whose place it does not move, if it is held there: its parts say then how it came there.
     held: Option<f64>,
 }
 
@@ -294,6 +294,24 @@ mod tests {
             rotation(Vec3::new(0.0, 1.0, 3.0), Vec3::new(-0.2, 0.5, 0.1), -0.9),
             MotionPart::Oscillation { direction: Vec3::x(), amplitude: 0.05, frequency: 3.0, phase: 0.4 },
         ])
+    }
+
+    #[test]
+    fn what_is_held_stays_where_it_has_come_to() {
+        let (motion, start) = (compound(), Vec3::new(0.7, -0.4, 0.9));
+        let (held, there) = (motion.held_at(0.7), motion.carriage(0.7));
+        for time in [0.0, 0.7, 3.0] {
+            let carried = held.carriage(time);
+            let place = carried.place(&start);
+            assert_eq!((place, carried.rotation), (there.place(&start), there.rotation));
+            assert_eq!((carried.spin, carried.velocity_at(&place)), (Vec3::zeros(), Vec3::zeros()));
+            assert_eq!(carried.turning_acceleration_at(&place) + held.acceleration(time), Vec3::zeros());
+            assert_eq!(carried.rotation_rates(), [Mat3::zeros(); 2]);
+        }
+        assert_eq!(held.bound(&start), MotionBound::default());
+        // Held once is held for good.
+        assert_eq!(held.held_at(2.0), held);
+        assert!(!held.oscillates() && held.highest_frequency() == 0.0);
     }
 
     /// Central differences over 1e-5 s of places of order one: 1e-11 of rounding, 1e-10 of the third derivative 1e3.
