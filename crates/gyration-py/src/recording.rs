@@ -80,8 +80,10 @@ impl Recording {
     pub fn no_such(&self, name: &str) -> PyErr {
         let columns: Vec<&str> = self.inner.columns().collect();
         let arrays: Vec<&str> = self.numbers().map(|array| array.name.as_str()).collect();
-        let names = arrays.iter().chain(&columns).copied();
-        let fix = suggestion(name, names, "arrays (`BODY.ARRAY` for one body) and columns");
+        // What has a point was meant as a column.
+        let (first, second) = if name.contains('.') { (columns, arrays) } else { (arrays, columns) };
+        let names = first.into_iter().chain(second);
+        let fix = suggestion(name, names, "columns, and arrays (`BODY.ARRAY` for one body)");
         PyKeyError::new_err(format!("the recording has no `{name}`: {fix}"))
     }
 }

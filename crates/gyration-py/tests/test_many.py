@@ -71,7 +71,7 @@ def test_columns_may_be_of_different_scenes(ball):
     runs = gyration.run_many([ball, die], keep=["ball.x", "die.x"])
     assert np.isfinite([runs["ball.x"][0], runs["die.x"][1]]).all()
     assert np.isnan([runs["ball.x"][1], runs["die.x"][0]]).all()
-    with pytest.raises(gyration.ArgumentError, match="(?s)no scene has the column `cube.x`.*ball.z.*die.z"):
+    with pytest.raises(gyration.ArgumentError, match="(?s)no scene has the column `cube.x`.*ball.z"):
         gyration.run_many([ball, die], keep=["ball.x", "cube.x"])
 
 

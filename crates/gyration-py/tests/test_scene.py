@@ -59,7 +59,7 @@ def test_an_unknown_key_is_a_key_error_that_says_what_there_is(ball):
     with pytest.raises(KeyError, match="it has ball"):
         ball["body.bal.velocity"]
     crowd = ball.edit({"body.ball.copies": {"grid": {"count": [10, 10, 1], "spacing": [0.2, 0.2, 0]}}})
-    with pytest.raises(KeyError, match="did you mean `ball-0.vx`") as caught:
+    with pytest.raises(KeyError, match="did you mean `ball-0.x`") as caught:
         gyration.Simulation(crowd)["ball-0.wx"]
     assert len(str(caught.value)) < 100
 

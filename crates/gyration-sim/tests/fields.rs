@@ -165,7 +165,8 @@ fn what_cannot_be_averaged_is_refused() {
     let at = FieldPoints::At(vec![Vec3::zeros()]);
     assert!(matches!(fields(&scene(&text), 0.1, &at), Err(NoFields::NoPairs)));
     assert!(fields(&scene(&with_pairs(&text)), 0.1, &at).is_ok());
-    let remembers = "time = { end = 0.01, sample = 0.01 }\nfluid = { viscosity = 0.5, density = 900 }\n[[body]]\nname = \"a\"\n\
+    let remembers = "time = { end = 0.01, sample = 0.01 }\nfluid = { viscosity = 0.5, density = 900 }\n\
+                     [[body]]\nname = \"a\"\n\
                      shape = { sphere = { radius = 0.03 } }\ndensity = 1000\ninclusion = { history = true }\n";
     assert!(matches!(fields(&scene(remembers), 0.1, &at), Err(NoFields::Remembers)));
     assert!(matches!(fields(&scene(CUBES), f64::INFINITY, &at), Err(NoFields::Width(_))));

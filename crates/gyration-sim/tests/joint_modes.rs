@@ -276,7 +276,8 @@ fn what_hangs_on_a_moving_support_or_anchor_rests_as_if_that_were_held() {
     let swing = of_body(&scene);
     assert_close("on a shaker", swing[0].frequency, (GRAVITY * 0.5 / (INERTIA + 0.25)).sqrt(), 1e-9);
     let scene = format!(
-        "world = {{ gravity = [0, 0, 0] }}\n{TIME}[[body]]\nname = \"a\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = 2\n\
+        "world = {{ gravity = [0, 0, 0] }}\n{TIME}[[body]]\nname = \"a\"\n\
+         shape = {{ sphere = {{ radius = 0.1 }} }}\nmass = 2\n\
          keep = {{ line = [1, 0, 0] }}\nspring = [{{ anchor = [1, 0, 0], stiffness = 50, rest_length = 1, damping = 3, \
          anchor_motion = {{ velocity = [1, 0, 0] }} }}]\n"
     );
@@ -290,7 +291,8 @@ fn what_hangs_on_a_moving_support_or_anchor_rests_as_if_that_were_held() {
 fn a_viscous_body_that_begins_turned_is_free_to_turn() {
     for material in ["neo_hookean = { shear = 3000, bulk = 8000 }", "mooney_rivlin = { c1 = 900, c2 = 300 }"] {
         let scene = format!(
-            "world = {{ gravity = [0, 0, 0] }}\n{TIME}[[body]]\nname = \"a\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\n\
+            "world = {{ gravity = [0, 0, 0] }}\n{TIME}[[body]]\nname = \"a\"\n\
+             shape = {{ sphere = {{ radius = 0.1 }} }}\n\
              density = 1000\naffine = {{ material = {{ {material} }}, viscosity = 20 }}\n\
              orientation = {{ axis_angle = {{ axis = [1, 2, 3], angle = 0.7 }} }}\n"
         );
