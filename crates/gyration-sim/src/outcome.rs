@@ -333,12 +333,12 @@ impl Stop {
             Quantity::Joints { joint } => (
                 Reason::Locked,
                 format!(
-                    "the equations of the joint {:?} come to depend on those of others: a linkage is stretched out, or \
-                     folded, to where it is locked",
+                    "the equations of the joint {:?} come to depend on those of others: a linkage is stretched out, \
+                     folded or flat, where it is locked, or more than one motion goes on",
                     model.joints()[joint].name
                 ),
-                "End the run before, change the lengths so that the linkage does not reach such a place, or start it \
-                 elsewhere."
+                "End the run before, change the lengths so that the linkage does not reach such a place, start it \
+                 elsewhere, or try another solver.rtol, 1e-6: a longer step may lead past it."
                     .to_string(),
             ),
             Quantity::Volume => (

@@ -158,3 +158,75 @@ fn a_drive_that_jumps_at_half_a_turn_ends_the_run() {
     assert_eq!(arm("10*sin(3*t - angle) - 2*(rate - 3)"), Outcome::Completed);
     assert_eq!(arm("-2*(rate - 3)"), Outcome::Completed);
 }
+
+/// A parallelogram that a motor turns through its flat position at 0.2454 s, where an antiparallelogram goes on as
+/// well.
+const PARALLELOGRAM: &str = r#"
+    [time]
+    end = 0.4
+    sample = 0.1
+    [[body]]
+    name = "crank"
+    shape = { box = { size = ["10 cm", "1 cm", "1.5 cm"] } }
+    density = "2.7 g/cm^3"
+    position = [0, 0, 0.05]
+    orientation = { axis_angle = { axis = [0, -1, 0], angle = 1.570796326794897 } }
+    [[body]]
+    name = "coupler"
+    shape = { box = { size = ["30 cm", "1 cm", "1.5 cm"] } }
+    density = "2.7 g/cm^3"
+    position = [0.15, 0, 0.1]
+    [[body]]
+    name = "rocker"
+    shape = { box = { size = ["10 cm", "1 cm", "1.5 cm"] } }
+    density = "2.7 g/cm^3"
+    position = [0.3, 0, 0.05]
+    orientation = { axis_angle = { axis = [0, -1, 0], angle = 1.570796326794897 } }
+    [[joint]]
+    name = "motor"
+    between = ["space", "crank"]
+    kind = "hinge"
+    points = [[0, 0, 0], [-0.05, 0, 0]]
+    axis = [0, -1, 0]
+    drive = { torque = "0.5*(2*pi*f - rate)", constants = { f = "1 Hz" } }
+    [[joint]]
+    name = "crank-end"
+    between = ["crank", "coupler"]
+    kind = "hinge"
+    points = [[0.05, 0, 0], [-0.15, 0, 0]]
+    axis = [0, -1, 0]
+    [[joint]]
+    name = "rocker-end"
+    between = ["coupler", "rocker"]
+    kind = "ball"
+    points = [[0.15, 0, 0], [0.05, 0, 0]]
+    [[joint]]
+    name = "pivot"
+    between = ["space", "rocker"]
+    kind = "ball"
+    points = [[0.3, 0, 0], [-0.05, 0, 0]]
+"#;
+
+#[test]
+fn a_linkage_that_is_flat_is_passed_or_told_at_once() {
+    let run = |settings: &[&str]| {
+        let scene = parsed(PARALLELOGRAM, settings);
+        let built = scene.built();
+        let mut simulation = Simulation::new(&built.model, &built.state, built.into()).unwrap();
+        let mut sink = MemorySink::default();
+        simulation.begin(&mut sink).unwrap();
+        let outcome = simulation.run(&mut sink, &mut Unwatched).unwrap();
+        (outcome, simulation.statistics().rate_evaluations, simulation.state())
+    };
+    let (outcome, _, state) = run(&["solver.rtol=1e-6"]);
+    assert_eq!(outcome, Outcome::Completed);
+    // All three are turned by as much, or not at all: it has stayed a parallelogram.
+    let turn = |body: usize| 2.0 * state.bodies[13 * body + 5].atan2(state.bodies[13 * body + 3]);
+    println!("turned by {} {} {}", turn(0), turn(1), turn(2));
+    assert!((turn(0) - turn(2)).abs() < 1e-6 && turn(1).abs() < 1e-6);
+    // Steps that get shorter without end would take half a million.
+    let (outcome, evaluations, _) = run(&["solver.rtol=1e-10"]);
+    let Outcome::Stopped(stop) = outcome else { panic!("{outcome:?}") };
+    println!("{evaluations} evaluations, {}: {}", stop.time, stop.what);
+    assert!(stop.reason == Reason::Locked && evaluations < 10_000 && (stop.time - 0.24537).abs() < 1e-4, "{stop:?}");
+}

@@ -68,8 +68,8 @@ pub enum Quantity {
         /// Index of the joint in the model.
         joint: usize,
     },
-    /// The least pivot of the equations of joints, which must be independent: a linkage is stretched out, or folded, to
-    /// where it is locked.
+    /// The least pivot of the equations of joints, which must be independent: a linkage is stretched out, folded or
+    /// flat.
     Joints {
         /// Index in the model of the joint whose equations follow from those of others.
         joint: usize,

@@ -37,7 +37,7 @@ pub(super) fn check_start(model: &Model, state: &mut State, joints: &[PlacedJoin
     if !is_right {
         return;
     }
-    if let Ok(Some(found)) = workspace.dependent_joint(model, state) {
+    if let Ok(Some(found)) = workspace.dependent_joint(model, state.time, state.numbers()) {
         let PlacedJoint { key, joint, .. } = &joints[found.joint];
         let (name, dependent, all) = (&joint.name, found.dependent, joint.rows().len());
         let message = format!(

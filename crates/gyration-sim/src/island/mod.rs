@@ -11,6 +11,7 @@ mod detection;
 mod effort;
 mod half_turns;
 pub(crate) mod horizon;
+mod linkages;
 mod merging;
 mod noting;
 mod pack;
@@ -351,6 +352,7 @@ impl Island {
         self.note_rest(plan, report.end);
         self.check_frictions(report.end)?;
         self.check_half_turns(&report)?;
+        self.check_linkages(&report)?;
         if self.system.may_be_given_up() {
             // Gaps and forces at its end are not all known.
             return Err(Stop::by_interruption(time));

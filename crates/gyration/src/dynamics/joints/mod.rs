@@ -31,10 +31,10 @@ pub use tangent::JointEquation;
 
 use super::Scratch;
 use super::body_rates::body_rates;
-use crate::inadmissible::{Inadmissible, Quantity};
+use crate::inadmissible::Inadmissible;
 use crate::instant::{Instant, MotionAt, second};
 use crate::joint::{Jet, Joint, JointGraph};
-use crate::load::{Interaction, Party};
+use crate::load::Interaction;
 use crate::model::Model;
 use gyration_blocks::{BlockLu, BlockMatrix, Real};
 use member::Member;
@@ -217,8 +217,6 @@ impl JointEquations {
     }
     /// Equations of joints have become dependent.
     fn singular(&self, model: &Model) -> Inadmissible {
-        let joint = self.least_independent();
-        let body = model.joints()[joint].parties().into_iter().find_map(Party::body).unwrap_or(0);
-        Inadmissible { body, quantity: Quantity::Joints { joint }, value: 0.0 }
+        self.least_independent().left(model)
     }
 }

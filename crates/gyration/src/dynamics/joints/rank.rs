@@ -2,9 +2,10 @@
 
 use super::super::Workspace;
 use super::{JointEquations, Room};
-use crate::inadmissible::Inadmissible;
+use crate::extended::Numbers;
+use crate::inadmissible::{Inadmissible, Quantity};
+use crate::load::{Interaction, Party};
 use crate::model::Model;
-use crate::state::State;
 use nalgebra::DMatrix;
 use std::ops::Range;
 
@@ -20,14 +21,28 @@ pub struct DependentJoint {
     pub dependent: usize,
 }
 
+impl DependentJoint {
+    /// What has left its domain by that.
+    pub fn left(&self, model: &Model) -> Inadmissible {
+        let joint = self.joint;
+        let body = model.joints()[joint].parties().into_iter().find_map(Party::body).unwrap_or(0);
+        Inadmissible { body, quantity: Quantity::Joints { joint }, value: 0.0 }
+    }
+}
+
 impl Workspace {
     /// The first joint of a model that is over-determined in a state, if there is one.
     ///
     /// # Errors
     /// [`Inadmissible`] where the state is outside the model.
-    pub fn dependent_joint(&mut self, model: &Model, state: &State) -> Result<Option<DependentJoint>, Inadmissible> {
+    pub fn dependent_joint(
+        &mut self,
+        model: &Model,
+        time: f64,
+        state: Numbers,
+    ) -> Result<Option<DependentJoint>, Inadmissible> {
         let Self { instants, scratch, .. } = self;
-        let motions = instants.motions(model, state.time, state.numbers())?;
+        let motions = instants.motions(model, time, state)?;
         let mut equations = std::mem::take(&mut scratch.joints);
         equations.read(model, |body| motions.at(model, body), false);
         let found = equations.dependent();
@@ -47,12 +62,12 @@ impl JointEquations {
     }
 
     /// The joint whose equations are nearest to dependence on those before them; the first of several.
-    pub(super) fn least_independent(&self) -> usize {
-        let Some(Room { graph, .. }) = &self.room else { return 0 };
+    pub(super) fn least_independent(&self) -> DependentJoint {
         let pivots = self.relative_pivots();
         let least = pivots.iter().copied().fold(f64::INFINITY, f64::min);
         let at = pivots.iter().position(|pivot| *pivot <= least).unwrap_or(0);
-        graph.ranges.iter().position(|range| range.contains(&at)).unwrap_or(0)
+        let ranges = self.room.iter().flat_map(|room| &room.graph.ranges);
+        DependentJoint { joint: ranges.into_iter().position(|range| range.contains(&at)).unwrap_or(0), dependent: 1 }
     }
 
     /// The pivot of each equation over its diagonal entry: about zero where it follows from those before it.
