@@ -44,7 +44,7 @@ const SCENE: &str = r#"
     points = [[0.2, 0, 0], [-0.1, 0, 0]]
     [[joint]]
     name = "rod"
-    between = ["bead", "space"]
+    between = ["bead", "table"]
     kind = "distance"
     points = [[0, 0, 0], [5, 0, 2]]
 "#;
@@ -57,7 +57,7 @@ fn joints_are_told_with_the_freedoms_that_they_leave() {
     for line in [
         "joint      hip: hinge of space and arm, 5 equations, 0 rad at the start, stopped at -0.5 and 1 rad\n",
         "joint      wrist: ball of arm and soft, 3 equations\n",
-        "joint      rod: distance of bead and space, 1 equation, 2 m at the start\n",
+        "joint      rod: distance of bead and table, 1 equation, 2 m at the start\n",
         // 6 and 11, since the volume is kept; 5 and 3 equations.
         "linkage    arm, soft: 17 coordinates less 8 equations leave 9 freedoms\n",
         "linkage    bead: 3 coordinates less 1 equation leave 2 freedoms\n",

@@ -338,8 +338,16 @@ fn a_contraction_that_begins_at_a_rate_and_turns_its_body_is_told() {
 }
 
 #[test]
-fn a_plane_that_no_contact_names_is_told() {
+fn a_support_that_nothing_names_is_told() {
+    let block = "[[support]]\nname = \"floor\"\nshape = { box = { size = [1, 1, 1] } }\nposition = [0, 0, -0.6]\n";
+    let joint = "[[joint]]\nname = \"rod\"\nbetween = [\"floor\", \"a\"]\nkind = \"distance\"\npoints = [[0, 0, 0], [0, 0, 0]]\n";
+    let above = |support: &str, lines: &str| {
+        remarks(&format!("{HEAD}{support}{}{lines}", ball("a", 0.02, "position = [0, 0, 1]\n"))).notes
+    };
+    assert!(above(block, "")[0].starts_with("nothing touches the support \"floor\""), "{:?}", above(block, ""));
+    assert_eq!(above(block, joint), Vec::<String>::new());
     let plane = "[[support]]\nname = \"floor\"\nplane = {}\n";
+    assert_eq!(above(plane, joint), Vec::<String>::new());
     let fallen = format!("{HEAD}{plane}{}", ball("a", 0.02, "position = [0, 0, 1]\n"));
     let expected = "nothing touches the support \"floor\": no contact names it, and bodies go through it";
     assert_eq!(remarks(&fallen).notes, [expected]);

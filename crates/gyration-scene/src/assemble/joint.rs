@@ -49,10 +49,11 @@ pub(super) fn joints(
             Some(&index) => Some(End { party: Party::Body(index), body: assembled[index].as_ref(), support: None }),
             None if name == SPACE => Some(End { party: Party::Space, body: None, support: None }),
             // A joint to a support is one to a place that moves as the support does.
-            None => supports.begins(name).map(|begins| End { party: Party::Space, body: None, support: Some(begins) }),
+            None => supports.begins(name).map(|begins| End { party: begins.party, body: None, support: Some(begins) }),
         });
         let [Some(one), Some(other)] = ends else { continue };
-        if one.party == other.party {
+        // The checks have noted joints of one body to itself, and of none.
+        if one.party == other.party || (one.body.is_none() && other.body.is_none()) {
             continue;
         }
         let is_constant = |end: &End| end.body.and_then(|own| own.body.affine()?.interior.kinetic).is_none();

@@ -139,8 +139,10 @@ impl JointStart<'_> {
 /// A point of a joint in words.
 fn told(model: &Model, joint: &Joint, end: usize, place: &Vec3) -> String {
     let [x, y, z] = (*place).into();
-    let whose =
-        joint.parties()[end].body().map_or_else(|| "space".to_owned(), |body| format!("{:?}", model.name(body)));
+    let whose = match joint.parties()[end] {
+        Party::Space => "space".to_owned(),
+        party => format!("{:?}", model.party_name(party)),
+    };
     format!("that of {whose} at [{x:?}, {y:?}, {z:?}]")
 }
 

@@ -35,6 +35,7 @@ pub(super) struct AssembledSupports {
 /// Where the axes of a support are before any motion, and how it moves.
 #[derive(Debug, Clone)]
 pub(super) struct Begins {
+    pub party: Party,
     pub position: Vec3,
     pub orientation: Quaternion,
     pub motion: Arc<SupportMotion>,
@@ -51,25 +52,27 @@ impl AssembledSupports {
                     Some(written) => orientation(written, &placed.key.key("orientation"), reporter),
                 };
                 let solid = solid(placed, turned, files, reporter);
+                this.parties.push(Party::SolidSupport(this.solids.len()));
                 if let Some((solid, orientation)) = solid.as_ref().zip(turned) {
                     this.begin(&placed.value, (solid.start.position, orientation), &solid.motion);
                 }
-                this.parties.push(Party::SolidSupport(this.solids.len()));
                 this.solids.push(solid);
             } else {
                 let plane = plane(&placed.value);
+                this.parties.push(Party::Support(this.planes.len()));
                 if let Some(plane) = &plane {
                     this.begin(&placed.value, (Vec3::zeros(), Quaternion::IDENTITY), &plane.motion);
                 }
-                this.parties.push(Party::Support(this.planes.len()));
                 this.planes.push(plane);
             }
         }
         this
     }
 
+    /// Notes where the support begins that came last.
     fn begin(&mut self, written: &Support, (position, orientation): (Vec3, Quaternion), motion: &SupportMotion) {
-        let begins = Begins { position, orientation, motion: Arc::new(motion.clone()) };
+        let Some(&party) = self.parties.last() else { return };
+        let begins = Begins { party, position, orientation, motion: Arc::new(motion.clone()) };
         self.begins.insert(written.name.clone(), begins);
     }
 

@@ -26,7 +26,7 @@ pub struct JointSurvey {
     pub name: String,
     /// "ball", "hinge", "slider", "weld" or "distance".
     pub kind: &'static str,
-    /// Names of its bodies, or of one and "space", as the scene has them.
+    /// Names of its bodies, or of one and a support or "space", as the scene has them.
     pub between: [String; 2],
     /// How many equations it has.
     pub equations: usize,
@@ -68,8 +68,10 @@ impl JointSurvey {
             }
         };
         let of = |(number, joint): (usize, &Joint)| {
-            let name = |party: Party| party.body().map_or("space", |body| model.name(body)).to_owned();
-            let mut between = joint.parties().map(name);
+            let mut between = joint.parties().map(|party| match party {
+                Party::Space => "space".to_owned(),
+                party => model.party_name(party).to_owned(),
+            });
             if joint.is_reversed {
                 between.reverse();
             }
