@@ -1,22 +1,22 @@
-//! The bodies of a replay at one sample: velocity, gap and traction at points of their surfaces.
+//! The bodies of a replay at one sample: gaps at points of their surfaces, and tractions over parts of these.
 //!
-//!   p = p₀ + P X,   ṗ = ṗ₀ + Ṗ X,   d = (p − o)·n,   t = Σ c d^−ν × (n, −(n·w) n or −(I − n⊗n) w)
+//!   p = p₀ + P X,   ṗ = ṗ₀ + Ṗ X,   d = (p − o)·n
 //!
-//! over the terms of all laws with all planes; the tractions of pairs are those at their planes
-//! (`gyration::pair::PairTractions`). t is force per current area, whatever measure a contact has: a law per reference
-//! area is divided by the area factor k = |cof(P) N|. The surface tension of a potential per deformed area is no
-//! traction and has no resultant force; it is left aside.
+//! A traction t is force per current area, whatever measure a contact has. What a law takes from the whole of a
+//! surface, a bound on friction or the speed at which all of it recedes, is the same for each part, so that parts add
+//! up. The tractions of pairs are those at their planes (`gyration::pair::PairTractions`). The surface tension of a
+//! potential per deformed area is no traction and has no resultant force; it is left aside.
 
 use super::cells::{Reached, SurfaceCells};
 use super::error::ReplayError;
 use gyration::contact::{
-    Action, AreaMeasure, Contact, ContactLaw, ContactLoads, ContactScratch, Deformation, Meeting, RelativeMotion, Term,
+    Contact, ContactLaw, ContactLoads, ContactScratch, Deformation, Meeting, Overall, RelativeMotion,
 };
 use gyration::dynamics::{PairTractionsAt, Workspace, each_pair_traction};
 use gyration::model::Model;
 use gyration::state::{BodyMotion, State};
-use gyration::surface::GapField;
-use gyration::tensor::{Vec3, cofactor};
+use gyration::surface::{GapClosed, GapField};
+use gyration::tensor::Vec3;
 use gyration::{Inadmissible, Quantity};
 
 /// The bodies of a recording at one of its samples.
@@ -115,29 +115,6 @@ impl BodySnapshot<'_> {
         gaps.fold(f64::INFINITY, f64::min)
     }
 
-    /// The traction of all contact laws with planes at a point of the surface, per current area \[Pa\].
-    ///
-    /// X from the centre of mass \[m\], N the outward unit normal there, both in the reference placement.
-    ///
-    /// # Errors
-    /// `Inadmissible` if the point is on or behind a support.
-    pub fn traction(&self, point: &Vec3, normal: &Vec3) -> Result<Vec3, ReplayError> {
-        let mut traction = Vec3::zeros();
-        for contact in self.contacts() {
-            let (field, relative) = self.relative_to(contact);
-            let gap = field.gap(point);
-            if gap.is_nan() || gap <= 0.0 {
-                return Err(self.outside(contact, gap));
-            }
-            let area_factor = match contact.law_set.measure {
-                AreaMeasure::ReferenceArea => (cofactor(&self.motion.placement.gradient) * normal).norm(),
-                AreaMeasure::DeformedArea | AreaMeasure::DeformedAreaPotential => 1.0,
-            };
-            traction += law_traction(contact, gap, &relative, point) / area_factor;
-        }
-        Ok(traction)
-    }
-
     /// The force of all planes on the surface over each triangle \[N\].
     fn forces_of_planes(&self, cells: &SurfaceCells) -> Result<Vec<Vec3>, ReplayError> {
         let gradient = &self.motion.placement.gradient;
@@ -149,11 +126,13 @@ impl BodySnapshot<'_> {
             let (field, motion) = self.relative_to(contact);
             let exponent = contact.law_set.laws().iter().map(ContactLaw::leading_exponent).fold(0.0, f64::max);
             let reached = Reached { field, exponent, nearest: whole.smallest_gap(&field).0 };
+            let laws = &contact.law_set;
+            let outside = |closed: GapClosed| self.outside(contact, closed.gap);
+            let all = Meeting { surface: whole, field, motion, deformation };
+            let overall = Overall::integrate(laws, &all, &mut scratch).map_err(outside)?;
             for (cell, force) in forces.iter_mut().enumerate() {
-                let surface = cells.over(cell, &reached);
-                let contact_state = Meeting { surface: &surface, field, motion, deformation };
-                let loads = ContactLoads::integrate(&contact.law_set, &contact_state, &mut scratch);
-                *force += loads.map_err(|closed| self.outside(contact, closed.gap))?.total().force;
+                let part = Meeting { surface: &cells.over(cell, &reached), ..all };
+                *force += ContactLoads::force_on_part(laws, &part, overall, &mut scratch).map_err(outside)?;
             }
         }
         Ok(forces)
@@ -186,20 +165,4 @@ impl BodySnapshot<'_> {
         let quantity = Quantity::Gap { support: contact.support };
         ReplayError::Inadmissible { row: self.row, source: Inadmissible { body: self.body, quantity, value: gap } }
     }
-}
-
-/// The traction of the laws of one contact at a point, in the measure of the contact \[Pa\].
-fn law_traction(contact: &Contact, gap: f64, relative: &RelativeMotion, point: &Vec3) -> Vec3 {
-    let n = &relative.normal;
-    let w = relative.velocity + relative.gradient_rate * point;
-    let along = n * n.dot(&w);
-    let traction = |term: Term| {
-        let strength = term.coefficient * libm::pow(gap, -term.exponent);
-        match term.action {
-            Action::Central => strength * n,
-            Action::Normal => -strength * along,
-            Action::Tangential => -strength * (w - along),
-        }
-    };
-    contact.law_set.laws().iter().flat_map(|law| law.terms()).flatten().map(traction).sum()
 }

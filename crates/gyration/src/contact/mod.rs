@@ -44,7 +44,7 @@ pub use meeting::{Deformation, Meeting, RelativeMotion};
 pub use negligible::Negligible;
 pub(crate) use one_sided::{OneSided, Shift};
 pub use repulsion::Repulsion;
-pub use resultant::ContactLoads;
+pub use resultant::{ContactLoads, Overall};
 pub use slopes::ContactSlopes;
 pub use support_contact::Contact;
 pub use tension::contact_potential;

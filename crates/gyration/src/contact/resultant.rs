@@ -56,6 +56,15 @@ pub struct ContactLoads {
     powers: [f64; LawKind::COUNT],
 }
 
+/// What the whole of a surface tells each part of it: laws with a bound, and one-sided ones, are not sums over parts.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Overall {
+    /// σ, by which a bound multiplies friction.
+    friction: Option<f64>,
+    /// What a one-sided damping adds to the speed along n [m/s].
+    shift: Option<f64>,
+}
+
 impl ContactLoads {
     /// Integrates the laws of a contact over the surface of a body.
     ///
@@ -68,7 +77,8 @@ impl ContactLoads {
         let split = SplitMotion::new(&meeting.motion);
         let mut sums = Sums::by_action(laws, moments);
         Sums::bind(&mut sums, laws, moments, |friction| split.lost(friction));
-        let mut this = split.loads(laws, &sums);
+        let shift = split.shift(laws, &sums[Action::Normal as usize]);
+        let mut this = split.loads(laws, &sums, shift.map(|shift| shift.by));
         for planned in laws.terms().iter().filter(|planned| planned.term.action == Action::Central) {
             let power = split.central_power(&moments[planned.value]);
             this.powers[planned.term.kind as usize] += planned.term.coefficient * power;
@@ -83,6 +93,26 @@ impl ContactLoads {
         Ok(this)
     }
 
+    /// The force on a part of a surface [N], given what the whole of it tells.
+    ///
+    /// # Errors
+    /// [`GapClosed`] if a point of the part lies on or behind the plane.
+    pub fn force_on_part(
+        laws: &LawSet,
+        part: &Meeting,
+        whole: Overall,
+        scratch: &mut ContactScratch,
+    ) -> Result<Vec3, GapClosed> {
+        let plan = laws.values();
+        let moments = scratch.take(plan.requests().len());
+        part.moments(laws, plan, moments)?;
+        let mut sums = Sums::by_action(laws, moments);
+        if let Some(factor) = whole.friction {
+            sums[Action::Tangential as usize].scale(factor);
+        }
+        Ok(SplitMotion::new(&part.motion).loads(laws, &sums, whole.shift).total.force)
+    }
+
     /// f and M of all laws together.
     pub fn total(&self) -> Loads {
         self.total
@@ -91,6 +121,22 @@ impl ContactLoads {
     /// The power f·w₀ + M·W [W] of one law on the relative motion.
     pub fn relative_power(&self, kind: LawKind) -> f64 {
         self.powers[kind as usize]
+    }
+}
+
+impl Overall {
+    /// Over the surface of a body.
+    ///
+    /// # Errors
+    /// [`GapClosed`] if a point of the surface lies on or behind the plane.
+    pub fn integrate(laws: &LawSet, meeting: &Meeting, scratch: &mut ContactScratch) -> Result<Self, GapClosed> {
+        let plan = laws.values();
+        let moments = scratch.take(plan.requests().len());
+        meeting.moments(laws, plan, moments)?;
+        let (split, sums) = (SplitMotion::new(&meeting.motion), Sums::by_action(laws, moments));
+        let bound = Sums::bound(&sums, laws, moments, |friction| split.lost(friction));
+        let shift = split.shift(laws, &sums[Action::Normal as usize]);
+        Ok(Self { friction: bound.map(|bound| bound.factor()), shift: shift.map(|shift| shift.by) })
     }
 }
 
@@ -136,14 +182,19 @@ impl<'a> SplitMotion<'a> {
         across.dot(&(across * friction.zeroth + rate * friction.first)) + swept.dot(&rate)
     }
 
-    /// The loads of these sums, and the powers of the viscous laws.
+    /// The loads of these sums, and the powers of the viscous laws; a shift is what damping adds to the speed along n.
     #[inline]
-    fn loads(&self, laws: &LawSet, [central, damping, friction]: &[Sums; Action::COUNT]) -> ContactLoads {
+    fn loads(
+        &self,
+        laws: &LawSet,
+        [central, damping, friction]: &[Sums; Action::COUNT],
+        shift: Option<f64>,
+    ) -> ContactLoads {
         let Self { motion: RelativeMotion { normal, velocity, gradient_rate }, speed, slope } = self;
         let mut powers = [0.0; LawKind::COUNT];
         let (mut along, mut lever) = (central.zeroth, central.first);
         if laws.acts(Action::Normal) {
-            let damped = self.shift(laws, damping).map_or(*speed, |shift| speed + shift.by);
+            let damped = shift.map_or(*speed, |shift| speed + shift);
             let push = -(damped * damping.zeroth + slope.dot(&damping.first));
             let pull = -(damped * damping.first + damping.second * slope);
             along += push;

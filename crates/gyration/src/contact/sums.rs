@@ -75,11 +75,23 @@ impl Sums {
     /// Puts the bound on friction, if it has one, given what it takes of its sums [W]: the sums are then those of σ κ.
     #[inline]
     pub fn bind(sums: &mut [Self; Action::COUNT], laws: &LawSet, moments: &[Moments], lost: impl Fn(&Self) -> f64) {
-        let Some(mu) = laws.mu() else { return };
+        if let Some(bound) = Self::bound(sums, laws, moments, lost) {
+            sums[Action::Tangential as usize].scale(bound.factor());
+        }
+    }
+
+    /// The bound on friction, if it has one, given what it takes of its sums [W].
+    #[inline]
+    pub fn bound(
+        sums: &[Self; Action::COUNT],
+        laws: &LawSet,
+        moments: &[Moments],
+        lost: impl Fn(&Self) -> f64,
+    ) -> Option<Bound> {
+        let mu = laws.mu()?;
         let push = push(laws, |planned| planned.term.coefficient * moments[planned.value].zeroth);
-        let friction = &mut sums[Action::Tangential as usize];
-        let bound = Bound::new(mu, Sliding { lost: lost(friction), resistance: friction.zeroth, push });
-        friction.scale(bound.factor());
+        let friction = &sums[Action::Tangential as usize];
+        Some(Bound::new(mu, Sliding { lost: lost(friction), resistance: friction.zeroth, push }))
     }
 }
 
