@@ -76,6 +76,7 @@ fn run_once(shared: &LiveState, subject: &Subject, scene: &Scene) -> Result<(), 
     let mut first = MemorySink::default();
     let mut simulation = watched.begun(&mut first)?;
     watched.publish(&mut shared.store());
+    shared.tell_pause();
     let mut sink = Publisher { shared, network: watched.network(), told: Instant::now() };
     let told = first.hand_on(&mut sink);
     let began = Instant::now();

@@ -96,7 +96,15 @@ impl LiveState {
     /// Halts the run, or lets it go on.
     pub(crate) fn pause(&self, paused: bool) {
         self.tell(|control| control.paused = paused);
-        self.store().pause(paused);
+        self.tell_pause();
+    }
+
+    /// Says in the store whether the run waits, which a store that begins anew has forgotten.
+    pub(super) fn tell_pause(&self) {
+        // Held until it is said: of two who say it the later one knows the last word.
+        let control = self.control();
+        self.store().pause(control.paused);
+        drop(control);
         self.announce();
     }
 
@@ -155,5 +163,24 @@ impl LiveState {
             control = self.told.wait(control).unwrap_or_else(PoisonError::into_inner);
         }
         control.wanted.is_some()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gyration_page::store::{Cursor, Message};
+    use serde_json::json;
+
+    /// A pause that is asked for after a run was wanted and before its rows begin.
+    #[test]
+    fn a_store_that_begins_anew_is_told_of_a_pause() {
+        let shared = LiveState::new(Vec::new());
+        shared.pause(true);
+        shared.store().begin(&json!({}), Vec::new(), Vec::new());
+        shared.tell_pause();
+        let told = shared.store().take(&mut Cursor::default());
+        let paused = |message: &Message| matches!(message, Message::Text(text) if text.contains("\"paused\":true"));
+        assert!(told.iter().any(paused), "{told:?}");
     }
 }
