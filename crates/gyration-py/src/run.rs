@@ -58,10 +58,14 @@ pub fn place(options: &RecordOptions, name: &str) -> PyResult<(PathBuf, Option<A
         return Ok((folder.path().join(format!("{name}.gyr")), Some(Arc::new(folder))));
     };
     if path.symlink_metadata().is_ok() && !options.resume && !options.force {
-        let fix = "go on with it by resume=True, replace it by force=True, or choose another name";
-        return Err(errors::arguments(format!("{} exists already\n  fix: {fix}", path.display())));
+        return Err(exists(path, "go on with it by resume=True, replace it by force=True, or choose another name"));
     }
     Ok((path.clone(), None))
+}
+
+/// What to do about a folder that is there.
+pub fn exists(path: &Path, fix: &str) -> PyErr {
+    errors::arguments(format!("{} exists already\n  fix: {fix}", path.display()))
 }
 
 /// What the program would say of a run.

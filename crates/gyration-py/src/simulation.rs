@@ -10,7 +10,7 @@ use crate::errors;
 use crate::load::{body_index, load_of, matrix, vector};
 use crate::monitor::PythonMonitor;
 use crate::recording::Recording;
-use crate::run::{RecordOptions, place};
+use crate::run::{RecordOptions, exists, place};
 use crate::saved;
 use crate::scene::Scene;
 use crate::start::GivenState;
@@ -401,6 +401,10 @@ impl Simulation {
     /// written there; an earlier one then goes on.
     #[pyo3(signature = (path=None, *, force=false))]
     fn record(&mut self, path: Option<PathBuf>, force: bool) -> PyResult<()> {
+        // A recording that is there goes on as a run, not here.
+        if let Some(path) = path.as_ref().filter(|path| !force && path.symlink_metadata().is_ok()) {
+            return Err(exists(path, "replace it by force=True, or choose another name"));
+        }
         let options = RecordOptions { output: path, resume: false, force };
         let (path, kept) = place(&options, self.scene.inner.name())?;
         // One that it takes the place of must not write there any more, however its folder is called.

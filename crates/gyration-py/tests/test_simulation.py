@@ -205,3 +205,11 @@ def test_a_thread_that_flushes_the_smallest_numbers_to_zero_is_refused(tmp_path)
     if ended.stderr.strip() == "not set":
         pytest.skip("this compiler's start-up code does not set the mode")
     assert ended.returncode == 0, ended.stderr
+
+
+def test_what_cannot_be_asked_for_is_told_with_what_can(ball, tmp_path):
+    with pytest.raises(gyration.ArgumentError, match="`until` is nan"):
+        gyration.simulate(ball, 0.005, lambda simulation: None, until=float("nan"))
+    simulation = gyration.Simulation(ball)
+    with pytest.raises(gyration.ArgumentError, match="exists already.*\n.*fix: replace it by force=True, or choose"):
+        simulation.record(tmp_path)

@@ -174,6 +174,8 @@ fn what_cannot_be_averaged_is_refused() {
         assert!(matches!(fields(&scene(CUBES), width, &at), Err(NoFields::Extent { .. })), "{width}");
     }
     assert!(matches!(fields(&scene(CUBES), 0.1, &FieldPoints::Grid([1, 0, 1])), Err(NoFields::EmptyGrid)));
+    let many = fields(&scene(CUBES), 0.1, &FieldPoints::Grid([1_000_000; 3]));
+    assert!(matches!(many, Err(NoFields::Many { points, .. }) if points == 1e18));
 }
 
 /// A ball at each point of a cubic lattice of 0.5 m.

@@ -51,6 +51,7 @@ fn refused(recording: &Recording, error: NoFields) -> CliError {
         NoFields::Width(_) | NoFields::Extent { .. } | NoFields::Wide { .. } => {
             Some("write --width with a length in metres, about the distance of bodies")
         }
+        NoFields::Many { .. } => Some("write a coarser --grid, or leave samples out with --every"),
         NoFields::EmptyGrid => Some("write --grid with three counts, as 64,64,1"),
     };
     match (error, fix) {

@@ -24,6 +24,9 @@ const MARGIN: f64 = 2.0;
 /// Points of a grid along its longest side where none is given.
 const USUAL_POINTS: usize = 16;
 
+/// So many points over all samples are kept at most, some ten gigabytes.
+const MOST_POINTS: f64 = 1e7;
+
 /// Where fields are asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FieldPoints {
@@ -33,6 +36,17 @@ pub enum FieldPoints {
     Grid([usize; 3]),
     /// At 16 along the longest side of that box, equally close along the others.
     Usual,
+}
+
+impl FieldPoints {
+    /// How many points are asked for.
+    fn count(&self) -> f64 {
+        match self {
+            Self::At(points) => points.len() as f64,
+            Self::Grid(counts) => counts.iter().map(|count| *count as f64).product(),
+            Self::Usual => (USUAL_POINTS as f64).powi(3),
+        }
+    }
 }
 
 /// A grid of points, x fastest.
@@ -102,6 +116,14 @@ pub enum NoFields {
         /// How many a point may see.
         seen: f64,
     },
+    /// More than are kept.
+    #[error("{points:e} points in each of {samples} samples are more than ten million")]
+    Many {
+        /// Points.
+        points: f64,
+        /// Samples.
+        samples: usize,
+    },
     /// A grid without points.
     #[error("a grid has at least one point along each axis")]
     EmptyGrid,
@@ -132,14 +154,18 @@ impl FieldSurvey {
         let mut source = FieldSource::open(recording)?;
         let corners = source.corners()?;
         let weight = Widths::of(&source.replay, &corners, MOST_SEEN).weight(width)?;
+        let mut rows: Vec<usize> = (0..recording.rows()).step_by(every.max(1)).collect();
+        rows.extend(recording.rows().checked_sub(1).filter(|last| last % every.max(1) > 0));
+        let asked = points.count();
+        if asked * rows.len() as f64 > MOST_POINTS {
+            return Err(NoFields::Many { points: asked, samples: rows.len() });
+        }
         let (points, grid) = match points {
             FieldPoints::At(points) => (points.clone(), None),
             FieldPoints::Grid(counts) if counts.contains(&0) => return Err(NoFields::EmptyGrid),
             FieldPoints::Grid(counts) => FieldGrid::over(&corners, width, |_| *counts).with_points(),
             FieldPoints::Usual => FieldGrid::over(&corners, width, usual_counts).with_points(),
         };
-        let mut rows: Vec<usize> = (0..recording.rows()).step_by(every.max(1)).collect();
-        rows.extend(recording.rows().checked_sub(1).filter(|last| last % every.max(1) > 0));
         let (mut times, mut fields) = (Vec::new(), Vec::new());
         for row in rows {
             let sample = source.sample(row)?;
