@@ -151,6 +151,81 @@ fn a_start_within_digits_of_its_joints_is_put_on_them() {
     assert_eq!((built.model.joints().len(), &*built.model.joints()[0].name), (1, "j"));
 }
 
+/// What is wrong with a scene, in words; nothing if it is right.
+fn told(text: &str) -> String {
+    Scene::parse("scene.toml", text, Path::new(""), &[]).map_or_else(|errors| errors.to_string(), |_| String::new())
+}
+
+/// The points of a ball joint are apart by digits, which are no length of a mass point.
+#[test]
+fn a_mass_point_on_a_ball_joint_starts_as_its_body_moves() {
+    for angle in [0.0, 0.3, 0.31, 0.7, 1.0, -0.4] {
+        let [x, z] = [0.1 * f64::cos(angle), -0.1 * f64::sin(angle)];
+        let bodies = |velocity: &str| {
+            format!(
+                "{TIME}[[body]]\nname = \"rod\"\nshape = {{ box = {{ size = [0.2, 0.02, 0.02] }} }}\nmass = 1\norientation = \
+                 {{ axis_angle = {{ axis = [0, 1, 0], angle = {angle:?} }} }}\n[[body]]\nname = \"tip\"\nshape = {{ points = \
+                 [{{ mass = 0.1, at = [0, 0, 0] }}] }}\nposition = [{x:?}, 0, {z:?}]\nvelocity = {velocity}\n[[joint]]\nname = \
+                 \"j\"\nbetween = [\"rod\", \"tip\"]\nkind = \"ball\"\npoints = [[0.1, 0, 0], [0, 0, 0]]\n"
+            )
+        };
+        let found = told(&bodies("[0, 0, 3]"));
+        assert!(found.contains("would part at 3e0 m/s"), "{angle}: {found}");
+        assert_eq!(told(&bodies("[0, 0, 0]")), "", "{angle}");
+    }
+}
+
+#[test]
+fn velocities_and_places_of_the_smallest_bodies_are_held_to_the_same_digits() {
+    for radius in [1e-2, 5e-6, 4e-10] {
+        let ball = |velocity: &str| {
+            let length = 10.0 * radius;
+            format!(
+                "{TIME}[[body]]\nname = \"a\"\nshape = {{ sphere = {{ radius = {radius:?} }} }}\ndensity = 1000\nvelocity = \
+                 {velocity}\n[[joint]]\nname = \"j\"\nbetween = [\"space\", \"a\"]\nkind = \"distance\"\npoints = [[0, 0, \
+                 {length:?}], [0, 0, 0]]\n"
+            )
+        };
+        assert!(told(&ball("[1, 0, 1e-6]")).contains("would part at"), "{radius}");
+        assert_eq!(told(&ball("[1, 0, 0]")), "", "{radius}");
+    }
+    // A box of a tenth of a micrometre, turned about a line that is oblique to its axes.
+    for angle in [0.3, 1.1, 2.0] {
+        let text = format!(
+            "{TIME}[[body]]\nname = \"a\"\nshape = {{ box = {{ size = [1e-8, 2e-8, 3e-8] }} }}\ndensity = 1000\norientation = {{ \
+             axis_angle = {{ axis = [1, 2, 3], angle = {angle:?} }} }}\n[[joint]]\nname = \"j\"\nbetween = [\"space\", \
+             \"a\"]\nkind = \"weld\"\n"
+        );
+        assert_eq!(told(&text), "", "{angle}");
+    }
+}
+
+#[test]
+fn the_nearest_velocities_are_those_of_all_bodies_without_rounding() {
+    let spinning = BOXES.replacen("mass = 1\n", "mass = 1\nangular_velocity = [1, 2, 3]\n", 1);
+    let weld = "[[joint]]\nname = \"j\"\nbetween = [\"space\", \"a\"]\nkind = \"weld\"\n";
+    let found = told(&format!("{TIME}{spinning}{weld}"));
+    let still = "velocity = [0.0, 0.0, 0.0], angular_velocity = [0.0, 0.0, 0.0] of \"a\"";
+    assert!(found.contains(still), "{found}");
+    // Of three in a row the first moves: so does the last.
+    let moving = BOXES.replacen("mass = 1\n", "mass = 1\nvelocity = [1, 0, 0]\n", 1);
+    let third =
+        "[[body]]\nname = \"c\"\nshape = { box = { size = [0.1, 0.1, 0.2] } }\nmass = 1\nposition = [0, 0, -0.4]\n";
+    let second = BALL.replace("\"j\"", "\"k\"").replace("\"b\"", "\"c\"").replace("\"a\"", "\"b\"");
+    let found = told(&format!("{TIME}{moving}{third}{BALL}{second}"));
+    assert!(["\"a\"", "\"b\"", "\"c\""].iter().all(|name| found.contains(&format!("] of {name}"))), "{found}");
+    // A straight row between two points that stand: no velocities are near.
+    let [top, bottom] = [("top", "a", 0.1), ("bottom", "b", -0.3)].map(|(name, body, z)| {
+        format!(
+            "[[joint]]\nname = \"{name}\"\nbetween = [\"space\", \"{body}\"]\nkind = \"ball\"\npoints = [[0, 0, {z:?}], [0, 0, \
+             {:?}]]\n",
+            if body == "a" { 0.1 } else { -0.1 }
+        )
+    });
+    let found = told(&format!("{TIME}{moving}{BALL}{top}{bottom}"));
+    assert!(found.contains("over-determined") && !found.contains("the nearest that do"), "{found}");
+}
+
 #[test]
 fn a_support_that_turns_round_moves_by_rounding_only() {
     let text = format!(

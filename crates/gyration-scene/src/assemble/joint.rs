@@ -68,12 +68,22 @@ pub(super) fn joints(
     joints
 }
 
-/// Gives mass points that have none yet a size: the shortest of the distances that they keep.
+/// Gives mass points that have none yet a size: the shortest of the distances that they keep, or of the sizes of what
+/// they are on.
 pub(super) fn give_sizes(assembled: &mut [Option<AssembledBody>], joints: &[PlacedJoint]) {
+    let sizes: Vec<f64> = assembled.iter().map(|body| body.as_ref().map_or(0.0, |own| own.body.size)).collect();
     for (index, body) in assembled.iter_mut().enumerate() {
         let Some(own) = body.as_mut().filter(|own| own.body.size == 0.0) else { continue };
         let is_own = |placed: &&PlacedJoint| placed.joint.parties().contains(&Party::Body(index));
-        let lengths = joints.iter().filter(is_own).map(|placed| placed.length).filter(|length| *length > 0.0);
+        let length = |PlacedJoint { joint, length, .. }: &PlacedJoint| match joint.kind {
+            JointKind::Distance => *length,
+            // The points of other kinds are apart by digits alone.
+            JointKind::Ball | JointKind::Hinge | JointKind::Slider | JointKind::Weld => {
+                let others = joint.parties().into_iter().filter_map(Party::body);
+                others.map(|other| sizes[other]).fold(0.0, f64::max)
+            }
+        };
+        let lengths = joints.iter().filter(is_own).map(length).filter(|length| *length > 0.0);
         let shortest = lengths.fold(f64::INFINITY, f64::min);
         if shortest.is_finite() {
             Arc::make_mut(&mut own.body).size = shortest;

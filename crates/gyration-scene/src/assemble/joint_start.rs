@@ -17,27 +17,21 @@ use gyration::tensor::Vec3;
 /// Places and velocities that agree to this part of sizes and speeds were meant to: ten digits are written.
 const AGREEMENT: f64 = 1e-9;
 
+/// So much of its size is rounding of a sum of some products.
+const DIGITS: f64 = 8.0 * f64::EPSILON;
+/// The velocities of no more bodies are told.
+const MOST_TOLD: usize = 12;
+
 /// Puts the first state right, or notes by how much it misses the joints; notes joints that are over-determined.
 pub(super) fn check_start(model: &Model, state: &mut State, joints: &[PlacedJoint], reporter: &mut Reporter<'_>) {
     let mut workspace = Workspace::default();
     // A state outside the model is told where the run begins.
     let Ok(misfits) = workspace.joint_misfits(model, state) else { return };
-    let mut nearest = state.clone();
-    let mut held = Held { time: nearest.time, high: &mut nearest.bodies, low: &mut [] };
-    if workspace.hold_places(model, &mut held).and_then(|_| workspace.hold_velocities(model, &mut held)).is_err() {
-        nearest = state.clone();
-    }
-    let mut is_right = true;
-    for (placed, misfit) in joints.iter().zip(&misfits) {
-        let start = JointStart { model, placed, state };
-        if !start.meets(misfit, reporter) || !start.moves(misfit, &nearest, reporter) {
-            is_right = false;
-        }
-    }
-    if !is_right {
-        return;
-    }
-    if let Ok(Some(found)) = workspace.dependent_joint(model, state.time, state.numbers()) {
+    let starts = || joints.iter().map(|placed| JointStart { model, placed, state }).zip(&misfits);
+    // All of them are looked at, one after the other.
+    let are_met = starts().filter(|(start, misfit)| !start.meets(misfit, reporter)).count() == 0;
+    let nearest = nearest(&mut workspace, model, state);
+    if are_met && let Ok(Some(found)) = workspace.dependent_joint(model, state.time, state.numbers()) {
         let PlacedJoint { key, joint, .. } = &joints[found.joint];
         let (name, dependent, all) = (&joint.name, found.dependent, joint.rows().len());
         let message = format!(
@@ -47,7 +41,20 @@ pub(super) fn check_start(model: &Model, state: &mut State, joints: &[PlacedJoin
         reporter.note(key, message, help_of_dependent(model, joint));
         return;
     }
-    *state = nearest;
+    // Where places are to be others nothing may be known of velocities.
+    let Some(nearest) = nearest else { return };
+    let do_move = starts().filter(|(start, misfit)| !start.moves(misfit, &nearest, reporter)).count() == 0;
+    if are_met && do_move {
+        *state = nearest;
+    }
+}
+
+/// The nearest state that goes with the joints; none where none is found.
+fn nearest(workspace: &mut Workspace, model: &Model, state: &State) -> Option<State> {
+    let mut nearest = state.clone();
+    let mut held = Held { time: nearest.time, high: &mut nearest.bodies, low: &mut [] };
+    workspace.hold_places(model, &mut held).and_then(|_| workspace.hold_velocities(model, &mut held)).ok()?;
+    nearest.bodies.iter().all(|number| number.is_finite()).then_some(nearest)
 }
 
 /// The fix for a joint that is over-determined.
@@ -94,8 +101,8 @@ impl JointStart<'_> {
         };
         let reach = |end: usize| place(end).norm();
         let size = self.bodies().map(|body| model.bodies[body].size).fold(0.0, f64::max);
-        // Rounding of places far from the origin stands beside it.
-        if misfit.place <= AGREEMENT * size + 8.0 * f64::EPSILON * (reach(0) + reach(1)) {
+        // Rounding of places far from the origin stands beside it. Directions are those of the start itself.
+        if misfit.place <= AGREEMENT * size + DIGITS * (reach(0) + reach(1)) {
             return true;
         }
         let [one, other] = [0, 1].map(|end| told(model, joint, end, &place(end)));
@@ -118,21 +125,45 @@ impl JointStart<'_> {
         let Self { model, placed: PlacedJoint { key, joint, .. }, state } = self;
         let speed = |body: usize| fastest_speed(&model.bodies[body], &state.motion(model, body));
         let speed = self.bodies().map(speed).fold(0.0, f64::max);
-        // Directions turn at a rate, points part at a speed: the larger of both scales.
         let size = self.bodies().map(|body| model.bodies[body].size).fold(f64::INFINITY, f64::min);
-        // A support that turns round stands still but for the rounding of its speed.
+        // A support that turns round stands still but for the rounding of its speed; what falls by its own size is so
+        // fast that the digits of that are nothing either.
         let carried = joint.anchor.motion.bound(&joint.anchor.start);
-        let rounding = 8.0 * f64::EPSILON * carried.speed.max(carried.speed / size).max(carried.spin);
-        if misfit.velocity <= AGREEMENT * speed.max(speed / size) + rounding {
+        let falling = (model.gravity.norm() * size).sqrt();
+        let digits = DIGITS * falling.max(carried.speed);
+        let velocity = AGREEMENT * speed + digits;
+        // Points part at a speed, directions turn at a rate.
+        let spin = AGREEMENT * speed / size + DIGITS * (falling / size).max(carried.spin);
+        if misfit.velocity <= velocity && misfit.spin <= spin {
             return true;
         }
-        let message = format!(
-            "the velocities of the start do not go with the joint \"{}\": it would part at {:e} m/s or 1/s",
-            joint.name, misfit.velocity
-        );
-        let fixes: Vec<String> = self.bodies().map(|body| velocities(model, nearest, body)).collect();
-        reporter.note(key, message, format!("the nearest that do: {}", fixes.join("; ")));
+        let parts = match misfit.velocity > velocity {
+            true => format!("it would part at {:e} m/s", misfit.velocity),
+            false => format!("its directions would part at {:e} 1/s", misfit.spin),
+        };
+        let message = format!("the velocities of the start do not go with the joint \"{}\": {parts}", joint.name);
+        reporter.note(key, message, format!("the nearest that do: {}", self.fixes(nearest, speed)));
         false
+    }
+
+    /// The velocities of the nearest state, of its own bodies and of whatever else has others there.
+    fn fixes(&self, nearest: &State, speed: f64) -> String {
+        let Self { model, state, .. } = self;
+        let is_own = |body: usize| self.bodies().any(|own| own == body);
+        let is_other = |body: usize| {
+            let slots = model.slots(body);
+            let numbers = slots.velocities();
+            let (size, before) = (model.bodies[body].size, &state.bodies[numbers.clone()]);
+            let changes = nearest.bodies[numbers].iter().zip(before).map(|(after, before)| (after - before).abs());
+            changes.fold(0.0, f64::max) > AGREEMENT * speed.min(speed / size)
+        };
+        let told: Vec<usize> = (0..model.bodies.len()).filter(|body| is_own(*body) || is_other(*body)).collect();
+        let mut fixes: Vec<String> =
+            told.iter().take(MOST_TOLD).map(|body| velocities(model, nearest, *body, speed)).collect();
+        if told.len() > MOST_TOLD {
+            fixes.push(format!("and so on, of {} bodies more", told.len() - MOST_TOLD));
+        }
+        fixes.join("; ")
     }
 }
 
@@ -146,18 +177,21 @@ fn told(model: &Model, joint: &Joint, end: usize, place: &Vec3) -> String {
     format!("that of {whose} at [{x:?}, {y:?}, {z:?}]")
 }
 
-/// The velocities of a body as a scene has them.
-fn velocities(model: &Model, state: &State, body: usize) -> String {
-    let motion = state.motion(model, body);
-    let vector = |vector: Vec3| {
-        let [x, y, z] = vector.into();
+/// The velocities of a body as a scene has them, where a speed counts; what is rounding of it is zero.
+fn velocities(model: &Model, state: &State, body: usize, speed: f64) -> String {
+    let (motion, size) = (state.motion(model, body), model.bodies[body].size);
+    let rounded = |number: f64, least: f64| if number.abs() > 1e-3 * AGREEMENT * least { number } else { 0.0 };
+    let vector = |vector: Vec3, least: f64| {
+        let [x, y, z] = vector.map(|number| rounded(number, least)).into();
         format!("[{x:?}, {y:?}, {z:?}]")
     };
     let turns = match &model.bodies[body].kind {
-        BodyKind::Rigid(_) => format!("angular_velocity = {}", vector(motion.angular_velocity())),
+        BodyKind::Rigid(_) if model.bodies[body].is_point() => String::new(),
+        BodyKind::Rigid(_) => format!(", angular_velocity = {}", vector(motion.angular_velocity(), speed / size)),
         BodyKind::Affine(_) | BodyKind::Contractile(_) => {
-            format!("gradient_rate = {}", rows(&motion.velocity.gradient_rate))
+            let rate = motion.velocity.gradient_rate.map(|number| rounded(number, speed / size));
+            format!(", gradient_rate = {}", rows(&rate))
         }
     };
-    format!("velocity = {}, {turns} of {:?}", vector(motion.velocity.velocity), model.name(body))
+    format!("velocity = {}{turns} of {:?}", vector(motion.velocity.velocity, speed), model.name(body))
 }

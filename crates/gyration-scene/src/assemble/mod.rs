@@ -352,7 +352,9 @@ fn give_sizes(assembled: &mut [Option<AssembledBody>], (springs, bonds): (&[Spri
         let is_own = |spring: &&Spring| spring.parties().contains(&Party::Body(index));
         let bonds = bonds.iter().filter(|bond| bond.bodies.contains(&index)).map(distance);
         let lengths = springs.iter().filter(is_own).map(length).chain(bonds);
-        let shortest = lengths.filter(|length| *length > 0.0).fold(cell, f64::min);
+        // Points that coincide but for digits are at no distance.
+        let digits = 8.0 * f64::EPSILON * places[index].map_or(0.0, |place| place.position.norm());
+        let shortest = lengths.filter(|length| *length > digits).fold(cell, f64::min);
         Arc::make_mut(&mut body.body).size = if shortest.is_finite() { shortest } else { 1.0 };
     }
 }

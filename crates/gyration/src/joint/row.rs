@@ -116,6 +116,12 @@ impl Row {
         }
     }
 
+    /// Whether C is of directions, and no length.
+    pub fn is_of_directions(&self) -> bool {
+        // The way between two points has both of their places in it.
+        self.right.iter().all(|vector| vector[0] == 0.0)
+    }
+
     /// C; lengths in metres.
     pub fn value(&self, of: &[Jet; 2]) -> f64 {
         let (VectorJet([u, ..]), VectorJet([v, ..])) = (self.left(of), VectorJet::of(&self.right, of));

@@ -33,10 +33,14 @@ pub struct Held<'a> {
 /// By how much a joint is missed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointMisfit {
-    /// The largest of its equations: of lengths \[m\], of directions.
+    /// The largest of its equations of lengths \[m\].
     pub place: f64,
-    /// The largest of their rates \[m/s\], \[1/s\].
+    /// The largest of its equations of directions.
+    pub turn: f64,
+    /// The largest rate of those of lengths \[m/s\].
     pub velocity: f64,
+    /// The largest rate of those of directions \[1/s\].
+    pub spin: f64,
 }
 
 impl Workspace {
@@ -76,10 +80,16 @@ impl Workspace {
         let misfit = |joint: &crate::joint::Joint| {
             let second = second(joint, |body| motions.at(model, body));
             let jets = jets(joint, &scratch.joints.members, graph, second);
-            joint.rows().iter().fold(JointMisfit::default(), |most, row| JointMisfit {
-                place: most.place.max(row.value(&jets).abs()),
-                velocity: most.velocity.max(row.rate(&jets).abs()),
-            })
+            let mut most = JointMisfit::default();
+            for row in joint.rows() {
+                let (place, velocity) = match row.is_of_directions() {
+                    true => (&mut most.turn, &mut most.spin),
+                    false => (&mut most.place, &mut most.velocity),
+                };
+                *place = place.max(row.value(&jets).abs());
+                *velocity = velocity.max(row.rate(&jets).abs());
+            }
+            most
         };
         Ok(model.joints().iter().map(misfit).collect())
     }
