@@ -210,9 +210,9 @@ fn bodies_beside_the_middle_of_a_large_face_are_told_what_pushes_them() {
         for plate in [&support, &body] {
             let [note] = &remarks(&on(plate, gap, 0.032)).notes[..] else { panic!("one note") };
             let told: f64 =
-                note.split("whole: ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap().parse().unwrap();
+                note.split("there, ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap().parse().unwrap();
             // The ball stands off by some per cent more of the whole gap.
-            assert!(note.contains("\"ball\" lies beside the middle") && (told / push - 1.0).abs() < 0.15, "{note}");
+            assert!(note.contains("\"ball\" is beside the middle") && (told / push - 1.0).abs() < 0.15, "{note}");
         }
     }
     for beside in

@@ -13,7 +13,6 @@ use gyration::body::Solid;
 use gyration::kinematics::Placement;
 use gyration::lattice::{Cell, HERE};
 use gyration::neighbours::{BodyPair, Extent, ImagePair, ImagePairs, PairRule};
-use gyration::pair::Overlap;
 use gyration::tensor::Vec3;
 
 /// Without a reach, and with a direction that repeats, images count that are no farther away than so many times the
@@ -105,11 +104,11 @@ impl<'a> Extents<'a> {
         let [one, other] = bodies.map(|body| &self.bodies[body]);
         let [first, mut second] = bodies.map(|body| self.placements[body]);
         second.position += shift;
-        let solids = [one, other].map(|body| &*body.body.solid);
-        let parts = Solid::parts_of(solids);
-        let overlap = parts.map(|[i, j]| Overlap::check([solids[0].part(i), solids[1].part(j)], [&first, &second]));
         // Bodies of one cell are looked at without a lattice too.
-        if let Some(overlap) = overlap.filter_map(Result::err).next().filter(|_| cell != HERE) {
+        if cell == HERE {
+            return;
+        }
+        if let Some(overlap) = Solid::overlap([&one.body.solid, &other.body.solid], [&first, &second]) {
             let (message, [by, way]) = overlap_in_words(&overlap);
             let [one, other] = [one, other].map(|assembled| &assembled.name);
             let message = format!("\"{one}\" and the image of \"{other}\" in the cell {cell:?} {message}");

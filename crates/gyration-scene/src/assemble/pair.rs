@@ -127,10 +127,7 @@ pub(super) fn check_overlaps(
             if reporter.diagnostics.is_full() {
                 return ControlFlow::Break(());
             }
-            let solids = [&one.body.solid, &other.body.solid];
-            let parts = Solid::parts_of(solids.map(|solid| &**solid));
-            let overlap = parts.map(|[i, j]| Overlap::check([solids[0].part(i), solids[1].part(j)], [first, second]));
-            if let Some(overlap) = overlap.filter_map(Result::err).next() {
+            if let Some(overlap) = Solid::overlap([&one.body.solid, &other.body.solid], [first, second]) {
                 overlapping([one, other], &overlap, &key.key("between"), reporter);
             }
             ControlFlow::Continue(())
@@ -184,10 +181,7 @@ impl WithSupport<'_> {
                 break;
             }
             let placements = [&placement(&body.start), &support.at(0.0).placement];
-            let solids = [&*body.body.solid, &*support.solid];
-            let parts = Solid::parts_of(solids);
-            let overlap = parts.map(|[i, j]| Overlap::check([solids[0].part(i), solids[1].part(j)], placements));
-            if let Some(overlap) = overlap.filter_map(Result::err).next() {
+            if let Some(overlap) = Solid::overlap([&body.body.solid, &support.solid], placements) {
                 overlapping_by_name([&body.name, &support.name], &overlap, &between, reporter);
             }
         }

@@ -1,6 +1,8 @@
 //! A body before it moves: what equal bodies share.
 
+use crate::kinematics::Placement;
 use crate::mass::MassProperties;
+use crate::pair::Overlap;
 use crate::shape::Shape;
 use crate::surface::{GapField, Surface};
 use crate::tensor::Vec3;
@@ -56,6 +58,37 @@ impl Solid {
     pub fn parts_of([one, other]: [&Self; 2]) -> impl Iterator<Item = [usize; 2]> + use<> {
         let (one, other) = (one.count_parts(), other.count_parts());
         (0..one).flat_map(move |first| (0..other).map(move |second| [first, second]))
+    }
+
+    /// How two overlap, if any of their parts do: of the ways out of two parts the one along which it is shortest to come
+    /// out of all.
+    pub fn overlap(solids: [&Self; 2], placements: [&Placement; 2]) -> Option<Overlap> {
+        let surfaces = |[one, other]: [usize; 2]| [solids[0].part(one), solids[1].part(other)];
+        let all: Vec<[usize; 2]> = Self::parts_of(solids).collect();
+        let reaching = |first: &Placement| {
+            let of =
+                |parts: &[usize; 2]| Some((*parts, Overlap::check(surfaces(*parts), [first, placements[1]]).err()?));
+            all.iter().filter_map(of).collect::<Vec<_>>()
+        };
+        let found = reaching(placements[0]);
+        if found.len() == all.len().min(1) {
+            return found.into_iter().map(|(_, overlap)| overlap).next();
+        }
+        let out = |(_, overlap): &([usize; 2], Overlap)| {
+            let (normal, mut depth) = (overlap.normal, overlap.depth);
+            // Parts that it reaches on its way are left behind, too: each of them once.
+            for _ in 0..all.len() {
+                let moved = Placement { position: placements[0].position + depth * normal, ..*placements[0] };
+                let left = reaching(&moved).into_iter().filter(|(_, overlap)| !overlap.touches());
+                let more = left.map(|(parts, _)| Overlap::depth_along(surfaces(parts), placements, &normal));
+                match more.reduce(f64::max) {
+                    Some(more) if more > depth => depth = more,
+                    _ => break,
+                }
+            }
+            Overlap { depth, ..*overlap }
+        };
+        found.iter().map(out).min_by(|one, other| one.depth.total_cmp(&other.depth))
     }
 
     /// The largest radius of its parts about the centre of mass [m]; none without a surface.

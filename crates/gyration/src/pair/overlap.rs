@@ -30,6 +30,19 @@ impl Overlap {
         self.depth <= self.resolution
     }
 
+    /// How far A has to go along a direction until a plane across it stands between the two \[m\]; below zero where one
+    /// does.
+    pub fn depth_along(surfaces: [&Surface; 2], placements: [&Placement; 2], normal: &Vec3) -> f64 {
+        // The height of the point that is lowest along a way, over the centre of the body.
+        let lowest = |i: usize, way: &Vec3| {
+            let gradient = &placements[i].gradient;
+            let field = GapField::new(0.0, gradient.tr_mul(way));
+            way.dot(&(gradient * surfaces[i].smallest_gap(&field).1))
+        };
+        let between = (placements[0].position - placements[1].position).dot(normal);
+        -(lowest(1, &-normal) + lowest(0, normal) + between)
+    }
+
     /// Whether two convex bodies are apart.
     ///
     /// # Errors

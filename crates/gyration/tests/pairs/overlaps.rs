@@ -1,7 +1,9 @@
 //! Bodies that reach each other: how deep, and the way apart, against closed forms.
 
+use gyration::body::Solid;
 use gyration::kinematics::Placement;
 use gyration::pair::Overlap;
+use gyration::shape::{Cuboid, Cylinder, Shape, Union, UnionPart};
 use gyration::surface::Surface;
 use gyration::tensor::{Mat3, Vec3};
 use nalgebra::Rotation3;
@@ -86,4 +88,31 @@ fn bodies_that_touch_are_told_to_touch() {
             assert!(Overlap::check(surfaces, [&at(apart, &turn), &at(Vec3::zeros(), &turn)]).is_ok());
         }
     }
+}
+
+/// Symptom: the way out of the first part that was reached led into the next one.
+#[test]
+fn the_way_out_of_a_union_is_one_out_of_all_its_parts() {
+    let solid = |shape: Shape| Solid::new(shape.clone(), shape.mass_properties(1.0));
+    let part = |x: f64, height: f64| UnionPart {
+        shape: Shape::Box(Cuboid { size: Vec3::new(0.1, 0.1, height) }),
+        offset: Vec3::new(x, 0.0, 0.5 * height),
+        rotation: Mat3::identity(),
+        density: 1.0,
+    };
+    let stairs = solid(Shape::Union(Union { parts: vec![part(-0.1, 0.1), part(0.0, 0.16), part(0.1, 0.05)] }));
+    let rod = solid(Shape::Cylinder(Cylinder { radius: 0.03, height: 0.2 }));
+    let still = at(-stairs.mass.center, &Mat3::identity());
+    let mut ways = 0;
+    for k in 0..200 {
+        let place = |j: usize| (libm::fmod(0.618_033_988_75 * ((j + 1) * (k + 1)) as f64, 1.0) - 0.5) * 0.4;
+        let turn = Rotation3::from_scaled_axis(Vec3::new(place(3), place(4), place(5)) * 8.0).into_inner();
+        let mut start = at(Vec3::new(place(0), 0.5 * place(1), 0.1 + 0.5 * place(2)), &turn);
+        let Some(found) = Solid::overlap([&rod, &stairs], [&start, &still]) else { continue };
+        ways += 1;
+        start.position += found.normal * (found.depth * 1.001 + 1e-9);
+        let left = Solid::overlap([&rod, &stairs], [&start, &still]);
+        assert!(left.is_none(), "{k}: {found:?}, then {left:?}");
+    }
+    assert!(ways > 30, "{ways}");
 }

@@ -42,13 +42,13 @@ pub(super) fn notes(model: &Model, start: &State) -> Vec<String> {
     let found: Vec<OnPlate> = between.filter_map(|pair| on(&pair)).chain(at_supports.filter_map(on)).collect();
     let told = found.iter().take(MOST).map(|OnPlate { body, plate, push }| {
         format!(
-            "\"{body}\" lies beside the middle of a large face of \"{plate}\", which is felt as a whole: {} of its weight \
-             pushes it away from there; floors and tables are planes",
+            "\"{body}\" is beside the middle of a large face of \"{plate}\", which is felt as a whole: where it lies there, {} \
+             of its weight pushes it away; floors and tables are planes",
             significant(*push, 2)
         )
     });
     let more = found.len().saturating_sub(MOST);
-    told.chain((more > 0).then(|| format!("and {more} bodies more lie so on large faces"))).collect()
+    told.chain((more > 0).then(|| format!("and {more} bodies more are so over large faces"))).collect()
 }
 
 /// The body on the one of a pair that is a plate, if it is.

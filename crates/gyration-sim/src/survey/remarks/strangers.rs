@@ -5,7 +5,6 @@ use gyration::body::{Body, BodyKind, Solid};
 use gyration::joint::Joint;
 use gyration::model::Model;
 use gyration::neighbours::{Sphere, each_overlap};
-use gyration::pair::Overlap;
 use gyration::state::{BodyMotion, State};
 use gyration::tensor::{Mat3, Vec3};
 use std::collections::{HashMap, HashSet};
@@ -143,15 +142,12 @@ fn sphere(model: &Model, start: &State, body: usize) -> Sphere {
     Sphere::new(placement.position, radius)
 }
 
-/// How far two bodies reach into each other, if any of their parts do [m].
+/// How far two bodies reach into each other, if they do [m].
 fn depth(model: &Model, start: &State, bodies: [usize; 2]) -> Option<f64> {
     let motions: [BodyMotion; 2] = bodies.map(|body| start.motion_in_space(model, body));
-    let solids = bodies.map(|body| &model.bodies[body].solid);
-    let overlaps = Solid::parts_of(solids.map(|solid| &**solid)).filter_map(|[one, other]| {
-        let surfaces = [solids[0].part(one), solids[1].part(other)];
-        Overlap::check(surfaces, motions.each_ref().map(|motion| &motion.placement)).err()
-    });
-    overlaps.filter(|overlap| !overlap.touches()).map(|overlap| overlap.depth).max_by(f64::total_cmp)
+    let placements = motions.each_ref().map(|motion| &motion.placement);
+    let overlap = Solid::overlap(bodies.map(|body| &*model.bodies[body].solid), placements);
+    overlap.filter(|overlap| !overlap.touches()).map(|overlap| overlap.depth)
 }
 
 /// Pairs of rigid bodies that pins keep apart.
