@@ -11,6 +11,7 @@
 
 pub mod adapter;
 mod crowd;
+mod eigenvalues;
 pub mod events;
 mod field_samples;
 pub mod fields;

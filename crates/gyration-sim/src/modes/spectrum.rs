@@ -12,7 +12,8 @@
 use super::canonical::Basis;
 use super::parts::joined_parts;
 use super::{ModeBehaviour, NoSpectrum};
-use nalgebra::{Complex, ComplexField, DMatrix, DVector, Schur};
+use crate::eigenvalues::eigenvalues;
+use nalgebra::{Complex, ComplexField, DMatrix, DVector};
 
 type C64 = Complex<f64>;
 
@@ -24,8 +25,6 @@ const NOISE: f64 = 3e-14;
 const ROUNDING: f64 = 1e-10;
 /// Eigenvalues nearer than this part of the fastest are one, with as many vectors.
 const SAME: f64 = 1e-8;
-/// Sweeps of the Schur form at most; a few for each eigenvalue are the rule.
-const SWEEPS: usize = 10_000;
 
 /// B, D, E and H.
 #[derive(Debug, Clone, PartialEq)]
@@ -266,8 +265,7 @@ impl System {
             contractions: others.into_iter().map(|i| i - self.count()).collect(),
         };
         let matrix = self.first_order(part);
-        let schur = Schur::try_new(matrix.clone(), f64::EPSILON, SWEEPS).ok_or(NoSpectrum)?;
-        let values: Vec<C64> = schur.complex_eigenvalues().iter().copied().collect();
+        let values = eigenvalues(&matrix).ok_or(NoSpectrum)?;
         let fastest = values.iter().map(|value| value.modulus()).fold(0.0, f64::max);
         let neutral = part.coordinates.len() - part.bound.len();
         let rounding = ROUNDING * fastest;
@@ -286,9 +284,47 @@ impl System {
                 reals.push((snap(value.re), self.moved(part, value, &vector)));
             }
         }
-        let pairs = part.bound.len().saturating_sub(motions.len());
-        motions.extend(self.joined(part, reals, (neutral, pairs), rounding));
+        let circling = self.circling(part)?;
+        let pairs = (part.bound.len() + circling.len()).saturating_sub(motions.len());
+        let alone = neutral.saturating_sub(2 * circling.len());
+        motions.extend(self.joined(part, reals, (alone, pairs), rounding));
+        motions.extend(circling.into_iter().map(|shape| {
+            let (eigenvalues, still) = (vec![C64::new(0.0, 0.0); 2], DVector::zeros(part.contractions.len()));
+            EigenMotion {
+                eigenvalues,
+                motion: ModeBehaviour::Free,
+                shape,
+                contraction: still.clone(),
+                following: still,
+            }
+        }));
         Ok(motions)
+    }
+
+    /// Displacements of free coordinates whose velocities turn into one another, a gyroscopic load: two of these make
+    /// one pair ±iω, and leave the zeros of both, which are a motion. A direction in the plane of each such pair.
+    fn circling(&self, part: &Part) -> Result<Vec<DVector<C64>>, NoSpectrum> {
+        let free: Vec<usize> = (0..part.coordinates.len()).filter(|at| !self.bound(part.coordinates[*at])).collect();
+        let resistance = DMatrix::from_fn(free.len(), free.len(), |i, j| {
+            -self.resistance[(part.coordinates[free[i]], part.coordinates[free[j]])]
+        });
+        let turning = (&resistance - resistance.transpose()).amax();
+        if turning <= NOISE * self.resistance.amax() {
+            return Ok(Vec::new());
+        }
+        let values = eigenvalues(&resistance).ok_or(NoSpectrum)?;
+        let fastest = values.iter().map(|value| value.modulus()).fold(0.0, f64::max);
+        let found = eigenvectors(&resistance, &values, SAME * fastest);
+        let shape = |(_, vector): (C64, DVector<C64>)| {
+            // The phase in which its largest part is displaced.
+            let most = vector.iter().copied().max_by(|a, b| a.modulus().total_cmp(&b.modulus())).unwrap_or_default();
+            let mut shape = DVector::zeros(part.coordinates.len());
+            let displaced = vector.iter().map(|value| C64::new((value * most.conj()).re, 0.0));
+            free.iter().zip(displaced).for_each(|(at, value)| shape[*at] = value);
+            let size = shape.norm();
+            shape / C64::new(size, 0.0)
+        };
+        Ok(found.into_iter().filter(|(value, _)| value.im > ROUNDING * fastest).map(shape).collect())
     }
 
     /// What an eigenvector moves.
@@ -462,6 +498,36 @@ mod tests {
         assert!((sliding.eigenvalues[1].re + 7.0 * 1.36).abs() < 1e-12, "{}", sliding.eigenvalues[1]);
         let ratio = rolling.shape[1] / rolling.shape[0];
         assert!((ratio - C64::new(1.0 / 0.6, 0.0)).norm() < 1e-9, "{ratio}");
+    }
+
+    /// A charge in a magnetic field, coupled to strains that creep: one pair ±iω and one free displacement of the
+    /// plane, and all strains with rates of their own. Symptom: the displacement was missing, or strains were called
+    /// free.
+    #[test]
+    fn free_coordinates_that_turn_into_one_another_are_one_oscillation_and_one_free_motion() {
+        let field = DMatrix::from_row_slice(2, 2, &[0.0, -2.0, 2.0, 0.0]);
+        let found = pairs(&DMatrix::zeros(2, 2), &field);
+        let behaviours: Vec<ModeBehaviour> = found.iter().map(|pair| pair.motion).collect();
+        assert_eq!(behaviours, [ModeBehaviour::Oscillates, ModeBehaviour::Free]);
+        assert!((found[0].eigenvalues[0] - C64::new(0.0, 2.0)).norm() < 1e-15);
+        assert_eq!(found[1].eigenvalues, vec![C64::new(0.0, 0.0); 2]);
+        assert!((found[1].shape.norm() - 1.0).abs() < 1e-15);
+        let (mut k, mut c) = (DMatrix::zeros(4, 4), DMatrix::zeros(4, 4));
+        c.view_mut((0, 0), (2, 2)).copy_from(&field);
+        (k[(2, 2)], k[(3, 3)]) = (100.0, 300.0);
+        (c[(2, 2)], c[(3, 3)]) = (50.0, 80.0);
+        for (i, j) in [(0, 2), (1, 3), (0, 3)] {
+            (c[(i, j)], c[(j, i)]) = (0.01, -0.01);
+        }
+        let found = pairs(&k, &c);
+        let count = |motion: ModeBehaviour| found.iter().filter(|pair| pair.motion == motion).count();
+        let counts = [ModeBehaviour::Oscillates, ModeBehaviour::Free, ModeBehaviour::Creeps].map(count);
+        assert_eq!(counts, [1, 1, 2], "{found:?}");
+        let creeping = found.iter().filter(|pair| pair.motion == ModeBehaviour::Creeps);
+        let products: Vec<f64> = creeping.map(|pair| (pair.eigenvalues[0] * pair.eigenvalues[1]).re).collect();
+        // λ₁ λ₂ = k, but for the square of the coupling.
+        assert!(products.iter().any(|it| (it - 100.0).abs() < 1e-3), "{products:?}");
+        assert!(products.iter().any(|it| (it - 300.0).abs() < 1e-3), "{products:?}");
     }
 
     #[test]

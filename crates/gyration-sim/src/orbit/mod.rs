@@ -10,7 +10,6 @@
 
 mod chart;
 mod choice;
-mod multipliers;
 mod shift;
 mod survey;
 #[cfg(test)]
@@ -21,6 +20,7 @@ pub use shift::{CellShift, NoShift};
 pub use survey::{OrbitChoice, OrbitStart, OrbitSurvey};
 
 use crate::adapter::Tolerance;
+use crate::eigenvalues::eigenvalues;
 use crate::plan::RunPlan;
 use crate::sensitivity::{Flow, NoFlow, each_state};
 use chart::{Chart, align, change, largest_of_kind, scales};
@@ -29,7 +29,6 @@ use gyration::Inadmissible;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{ImplicitOrder, Options};
-use multipliers::eigenvalues;
 use nalgebra::{Complex, ComplexField as _, DMatrix, DVector};
 use std::cmp::Ordering;
 

@@ -150,11 +150,17 @@ fn warnings_of_model(
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     if continuum.foundation() > 0.0 {
-        warnings.push(
-            "anchors, supports or forces of their own hold the bodies in space: waves have a frequency at k = 0, and \
-             the moduli say what neighbours add to it"
-                .to_owned(),
-        );
+        let held = "anchors, supports or forces of their own hold the bodies in space: waves have a frequency at k = 0";
+        // u is the same for all of a cell.
+        let moduli = match continuum.coordinates().count() > 3 {
+            false => "and the moduli say what neighbours add to it",
+            true => {
+                "and the moduli are those of a slow motion beside one that is the same in all of a cell, against which \
+                 its parts are held, too: they are not those of its waves, and other cells of the same lattice have \
+                 others (`gyration bands` tells the waves)"
+            }
+        };
+        warnings.push(format!("{held}, {moduli}"));
     }
     let floppy = continuum.floppy();
     if floppy > 0 {
