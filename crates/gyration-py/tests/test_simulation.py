@@ -208,7 +208,7 @@ def test_a_thread_that_flushes_the_smallest_numbers_to_zero_is_refused(tmp_path)
 
 
 def test_what_cannot_be_asked_for_is_told_with_what_can(ball, tmp_path):
-    with pytest.raises(gyration.ArgumentError, match="`until` is nan"):
+    with pytest.raises(gyration.ArgumentError, match="`until` is NaN"):
         gyration.simulate(ball, 0.005, lambda simulation: None, until=float("nan"))
     simulation = gyration.Simulation(ball)
     with pytest.raises(gyration.ArgumentError, match="exists already.*\n.*fix: replace it by force=True, or choose"):
