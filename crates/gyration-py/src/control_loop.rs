@@ -21,7 +21,7 @@ pub fn simulate(
     if !(dt > 0.0 && dt.is_finite()) {
         return Err(errors::arguments(format!("the control interval `dt` is {dt} s\n  fix: give a time above zero")));
     }
-    if let Some(end) = until.filter(|end| !end.is_finite()) {
+    if let Some(end) = until.filter(|end| end.is_nan()) {
         return Err(errors::arguments(format!("`until` is {end}\n  fix: give a time in seconds")));
     }
     let simulation = Py::new(py, Simulation::new(py, scene)?)?;

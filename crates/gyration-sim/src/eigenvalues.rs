@@ -4,7 +4,7 @@ use nalgebra::{Complex, ComplexField as _, DMatrix, Schur};
 
 /// Sweeps of the Schur form at most, an eigenvalue; a few are the rule.
 const SWEEPS: usize = 100;
-/// In so many roundings an entry is none where the iteration does not end otherwise.
+/// Entries below so many roundings count as zero, from one attempt to the next.
 const MILDER: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
 
 /// The eigenvalues of a matrix; none of an iteration that does not end.

@@ -229,5 +229,5 @@ fn a_linkage_that_is_flat_is_passed_or_told_at_once() {
     let (outcome, evaluations, _) = run(&["solver.rtol=1e-10"]);
     let Outcome::Stopped(stop) = outcome else { panic!("{outcome:?}") };
     println!("{evaluations} evaluations, {}: {}", stop.time, stop.what);
-    assert!(stop.reason == Reason::Locked && evaluations < 10_000 && (stop.time - 0.24537).abs() < 1e-4, "{stop:?}");
+    assert!(stop.reason == Reason::Locked && evaluations < 3_000 && (stop.time - 0.24537).abs() < 1e-4, "{stop:?}");
 }

@@ -71,7 +71,14 @@ pub(super) fn joints(
 /// Gives mass points that have none yet a size: the shortest of the distances that they keep, or of the sizes of what
 /// they are on.
 pub(super) fn give_sizes(assembled: &mut [Option<AssembledBody>], joints: &[PlacedJoint]) {
+    // What one has got is a size for those that are on it.
+    while give_sizes_once(assembled, joints) {}
+}
+
+/// The same of what has a size so far; whether any got one.
+fn give_sizes_once(assembled: &mut [Option<AssembledBody>], joints: &[PlacedJoint]) -> bool {
     let sizes: Vec<f64> = assembled.iter().map(|body| body.as_ref().map_or(0.0, |own| own.body.size)).collect();
+    let mut any = false;
     for (index, body) in assembled.iter_mut().enumerate() {
         let Some(own) = body.as_mut().filter(|own| own.body.size == 0.0) else { continue };
         let is_own = |placed: &&PlacedJoint| placed.joint.parties().contains(&Party::Body(index));
@@ -87,8 +94,10 @@ pub(super) fn give_sizes(assembled: &mut [Option<AssembledBody>], joints: &[Plac
         let shortest = lengths.fold(f64::INFINITY, f64::min);
         if shortest.is_finite() {
             Arc::make_mut(&mut own.body).size = shortest;
+            any = true;
         }
     }
+    any
 }
 
 /// What a joint is at.

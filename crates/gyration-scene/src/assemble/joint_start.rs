@@ -13,12 +13,15 @@ use gyration::load::{Interaction, Party};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::tensor::Vec3;
+use std::ops::Range;
 
 /// Places and velocities that agree to this part of sizes and speeds were meant to: ten digits are written.
 const AGREEMENT: f64 = 1e-9;
 
-/// So much of its size is rounding of a sum of some products.
-const DIGITS: f64 = 8.0 * f64::EPSILON;
+/// The rounding of places and speeds, as a part of them.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+/// The part of a speed below which a velocity is told as zero.
+const NOTHING: f64 = 1e-12;
 /// The velocities of no more bodies are told.
 const MOST_TOLD: usize = 12;
 
@@ -28,8 +31,8 @@ pub(super) fn check_start(model: &Model, state: &mut State, joints: &[PlacedJoin
     // A state outside the model is told where the run begins.
     let Ok(misfits) = workspace.joint_misfits(model, state) else { return };
     let starts = || joints.iter().map(|placed| JointStart { model, placed, state }).zip(&misfits);
-    // All of them are looked at, one after the other.
-    let are_met = starts().filter(|(start, misfit)| !start.meets(misfit, reporter)).count() == 0;
+    let met: Vec<bool> = starts().map(|(start, misfit)| start.meets(misfit, reporter)).collect();
+    let are_met = met.iter().all(|met| *met);
     let nearest = nearest(&mut workspace, model, state);
     if are_met && let Ok(Some(found)) = workspace.dependent_joint(model, state.time, state.numbers()) {
         let PlacedJoint { key, joint, .. } = &joints[found.joint];
@@ -41,10 +44,10 @@ pub(super) fn check_start(model: &Model, state: &mut State, joints: &[PlacedJoin
         reporter.note(key, message, help_of_dependent(model, joint));
         return;
     }
-    // Where places are to be others nothing may be known of velocities.
-    let Some(nearest) = nearest else { return };
-    let do_move = starts().filter(|(start, misfit)| !start.moves(misfit, &nearest, reporter)).count() == 0;
-    if are_met && do_move {
+    // Velocities at other places than those meant say nothing.
+    let of_met = starts().zip(&met).filter(|(_, met)| **met).map(|(start, _)| start);
+    let parting = of_met.filter(|(start, misfit)| !start.moves(misfit, nearest.as_ref(), reporter)).count();
+    if let Some(nearest) = nearest.filter(|_| are_met && parting == 0) {
         *state = nearest;
     }
 }
@@ -102,7 +105,7 @@ impl JointStart<'_> {
         let reach = |end: usize| place(end).norm();
         let size = self.bodies().map(|body| model.bodies[body].size).fold(0.0, f64::max);
         // Rounding of places far from the origin stands beside it. Directions are those of the start itself.
-        if misfit.place <= AGREEMENT * size + DIGITS * (reach(0) + reach(1)) {
+        if misfit.place <= AGREEMENT * size + ROUNDING * (reach(0) + reach(1)) {
             return true;
         }
         let [one, other] = [0, 1].map(|end| told(model, joint, end, &place(end)));
@@ -121,19 +124,18 @@ impl JointStart<'_> {
     }
 
     /// Whether its velocities are right but for digits; notes it otherwise.
-    fn moves(&self, misfit: &JointMisfit, nearest: &State, reporter: &mut Reporter<'_>) -> bool {
+    fn moves(&self, misfit: &JointMisfit, nearest: Option<&State>, reporter: &mut Reporter<'_>) -> bool {
         let Self { model, placed: PlacedJoint { key, joint, .. }, state } = self;
         let speed = |body: usize| fastest_speed(&model.bodies[body], &state.motion(model, body));
         let speed = self.bodies().map(speed).fold(0.0, f64::max);
         let size = self.bodies().map(|body| model.bodies[body].size).fold(f64::INFINITY, f64::min);
-        // A support that turns round stands still but for the rounding of its speed; what falls by its own size is so
-        // fast that the digits of that are nothing either.
+        // A support that turns round stands still but for the rounding of its speed. The rounding of the speed of a
+        // fall by its own size is nothing for any body.
         let carried = joint.anchor.motion.bound(&joint.anchor.start);
         let falling = (model.gravity.norm() * size).sqrt();
-        let digits = DIGITS * falling.max(carried.speed);
-        let velocity = AGREEMENT * speed + digits;
+        let velocity = AGREEMENT * speed + ROUNDING * falling.max(carried.speed);
         // Points part at a speed, directions turn at a rate.
-        let spin = AGREEMENT * speed / size + DIGITS * (falling / size).max(carried.spin);
+        let spin = AGREEMENT * speed / size + ROUNDING * (falling / size).max(carried.spin);
         if misfit.velocity <= velocity && misfit.spin <= spin {
             return true;
         }
@@ -142,7 +144,11 @@ impl JointStart<'_> {
             false => format!("its directions would part at {:e} 1/s", misfit.spin),
         };
         let message = format!("the velocities of the start do not go with the joint \"{}\": {parts}", joint.name);
-        reporter.note(key, message, format!("the nearest that do: {}", self.fixes(nearest, speed)));
+        let fix = match nearest {
+            Some(nearest) => format!("the nearest that do: {}", self.fixes(nearest, speed.max(carried.speed))),
+            None => "none that do were found near by: let the bodies start at rest, or leave joints out".to_owned(),
+        };
+        reporter.note(key, message, fix);
         false
     }
 
@@ -152,10 +158,12 @@ impl JointStart<'_> {
         let is_own = |body: usize| self.bodies().any(|own| own == body);
         let is_other = |body: usize| {
             let slots = model.slots(body);
-            let numbers = slots.velocities();
-            let (size, before) = (model.bodies[body].size, &state.bodies[numbers.clone()]);
-            let changes = nearest.bodies[numbers].iter().zip(before).map(|(after, before)| (after - before).abs());
-            changes.fold(0.0, f64::max) > AGREEMENT * speed.min(speed / size)
+            let change = |numbers: Range<usize>| {
+                let pairs = nearest.bodies[numbers.clone()].iter().zip(&state.bodies[numbers]);
+                pairs.map(|(after, before)| (after - before).abs()).fold(0.0, f64::max)
+            };
+            let least = AGREEMENT * speed;
+            change(slots.velocity()) > least || change(slots.rate()) > least / model.bodies[body].size
         };
         let told: Vec<usize> = (0..model.bodies.len()).filter(|body| is_own(*body) || is_other(*body)).collect();
         let mut fixes: Vec<String> =
@@ -180,7 +188,7 @@ fn told(model: &Model, joint: &Joint, end: usize, place: &Vec3) -> String {
 /// The velocities of a body as a scene has them, where a speed counts; what is rounding of it is zero.
 fn velocities(model: &Model, state: &State, body: usize, speed: f64) -> String {
     let (motion, size) = (state.motion(model, body), model.bodies[body].size);
-    let rounded = |number: f64, least: f64| if number.abs() > 1e-3 * AGREEMENT * least { number } else { 0.0 };
+    let rounded = |number: f64, least: f64| if number.abs() > NOTHING * least { number } else { 0.0 };
     let vector = |vector: Vec3, least: f64| {
         let [x, y, z] = vector.map(|number| rounded(number, least)).into();
         format!("[{x:?}, {y:?}, {z:?}]")

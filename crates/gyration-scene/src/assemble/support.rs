@@ -52,26 +52,32 @@ impl AssembledSupports {
                     Some(written) => orientation(written, &placed.key.key("orientation"), reporter),
                 };
                 let solid = solid(placed, turned, files, reporter);
-                this.parties.push(Party::SolidSupport(this.solids.len()));
+                let party = Party::SolidSupport(this.solids.len());
                 if let Some((solid, orientation)) = solid.as_ref().zip(turned) {
-                    this.begin(&placed.value, (solid.start.position, orientation), &solid.motion);
+                    this.begin(party, &placed.value, (solid.start.position, orientation), &solid.motion);
                 }
+                this.parties.push(party);
                 this.solids.push(solid);
             } else {
                 let plane = plane(&placed.value);
-                this.parties.push(Party::Support(this.planes.len()));
+                let party = Party::Support(this.planes.len());
                 if let Some(plane) = &plane {
-                    this.begin(&placed.value, (Vec3::zeros(), Quaternion::IDENTITY), &plane.motion);
+                    this.begin(party, &placed.value, (Vec3::zeros(), Quaternion::IDENTITY), &plane.motion);
                 }
+                this.parties.push(party);
                 this.planes.push(plane);
             }
         }
         this
     }
 
-    /// Notes where the support begins that came last.
-    fn begin(&mut self, written: &Support, (position, orientation): (Vec3, Quaternion), motion: &SupportMotion) {
-        let Some(&party) = self.parties.last() else { return };
+    fn begin(
+        &mut self,
+        party: Party,
+        written: &Support,
+        (position, orientation): (Vec3, Quaternion),
+        motion: &SupportMotion,
+    ) {
         let begins = Begins { party, position, orientation, motion: Arc::new(motion.clone()) };
         self.begins.insert(written.name.clone(), begins);
     }

@@ -73,7 +73,7 @@ impl FieldMaps {
         let weight = self.widths.weight(width)?;
         let grid = FieldGrid::over(&self.corners, width, |sides| counts(sides, width));
         let (_, along) = FieldLayer::axes(&grid.counts);
-        let (points, _) = grid.with_points();
+        let points = grid.points();
         let fields = averaged(&sample, &points, &weight)?;
         let values = FIELD_SCALARS.iter().map(|scalar| scalar.values(&fields)).collect();
         Ok(FieldMap { time: sample.time, grid, along, values })

@@ -38,17 +38,6 @@ pub enum FieldPoints {
     Usual,
 }
 
-impl FieldPoints {
-    /// How many points are asked for.
-    fn count(&self) -> f64 {
-        match self {
-            Self::At(points) => points.len() as f64,
-            Self::Grid(counts) => counts.iter().map(|count| *count as f64).product(),
-            Self::Usual => (USUAL_POINTS as f64).powi(3),
-        }
-    }
-}
-
 /// A grid of points, x fastest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FieldGrid {
@@ -156,16 +145,17 @@ impl FieldSurvey {
         let weight = Widths::of(&source.replay, &corners, MOST_SEEN).weight(width)?;
         let mut rows: Vec<usize> = (0..recording.rows()).step_by(every.max(1)).collect();
         rows.extend(recording.rows().checked_sub(1).filter(|last| last % every.max(1) > 0));
-        let asked = points.count();
+        let (grid, listed) = match points {
+            FieldPoints::At(points) => (None, points.as_slice()),
+            FieldPoints::Grid(counts) if counts.contains(&0) => return Err(NoFields::EmptyGrid),
+            FieldPoints::Grid(counts) => (Some(FieldGrid::over(&corners, width, |_| *counts)), &[][..]),
+            FieldPoints::Usual => (Some(FieldGrid::over(&corners, width, usual_counts)), &[][..]),
+        };
+        let asked = grid.as_ref().map_or(listed.len() as f64, FieldGrid::count);
         if asked * rows.len() as f64 > MOST_POINTS {
             return Err(NoFields::Many { points: asked, samples: rows.len() });
         }
-        let (points, grid) = match points {
-            FieldPoints::At(points) => (points.clone(), None),
-            FieldPoints::Grid(counts) if counts.contains(&0) => return Err(NoFields::EmptyGrid),
-            FieldPoints::Grid(counts) => FieldGrid::over(&corners, width, |_| *counts).with_points(),
-            FieldPoints::Usual => FieldGrid::over(&corners, width, usual_counts).with_points(),
-        };
+        let points = grid.as_ref().map_or_else(|| listed.to_vec(), FieldGrid::points);
         let (mut times, mut fields) = (Vec::new(), Vec::new());
         for row in rows {
             let sample = source.sample(row)?;
@@ -205,11 +195,17 @@ impl FieldGrid {
         Self { counts, origin: Vec3::from_fn(|axis, _| origin(axis)), spacing: Vec3::from_fn(|axis, _| spacing(axis)) }
     }
 
-    fn with_points(self) -> (Vec<Vec3>, Option<Self>) {
+    /// The number of its points.
+    fn count(&self) -> f64 {
+        self.counts.iter().map(|count| *count as f64).product()
+    }
+
+    /// Its points, x fastest.
+    fn points(&self) -> Vec<Vec3> {
         let [nx, ny, nz] = self.counts;
         let place = |at: [usize; 3]| self.origin + self.spacing.component_mul(&Vec3::from(at.map(|n| n as f64)));
         let points = (0..nz).flat_map(|z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])));
-        (points.map(place).collect(), Some(self))
+        points.map(place).collect()
     }
 }
 

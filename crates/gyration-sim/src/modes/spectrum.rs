@@ -284,10 +284,10 @@ impl System {
                 reals.push((snap(value.re), self.moved(part, value, &vector)));
             }
         }
-        let circling = self.circling(part)?;
+        let circling = self.circling(part, (rounding, motions.len()))?;
         let pairs = (part.bound.len() + circling.len()).saturating_sub(motions.len());
-        let alone = neutral.saturating_sub(2 * circling.len());
-        motions.extend(self.joined(part, reals, (alone, pairs), rounding));
+        let straight = neutral.saturating_sub(2 * circling.len());
+        motions.extend(self.joined(part, reals, (straight, pairs), rounding));
         motions.extend(circling.into_iter().map(|shape| {
             let (eigenvalues, still) = (vec![C64::new(0.0, 0.0); 2], DVector::zeros(part.contractions.len()));
             EigenMotion {
@@ -303,13 +303,16 @@ impl System {
 
     /// Displacements of free coordinates whose velocities turn into one another, a gyroscopic load: two of these make
     /// one pair ±iω, and leave the zeros of both, which are a motion. A direction in the plane of each such pair.
-    fn circling(&self, part: &Part) -> Result<Vec<DVector<C64>>, NoSpectrum> {
+    ///
+    /// Rates below the rounding of the part are none. Where it has more oscillations than bound coordinates, though
+    /// none of free ones by themselves, coupling has made them.
+    fn circling(&self, part: &Part, (rounding, oscillations): (f64, usize)) -> Result<Vec<DVector<C64>>, NoSpectrum> {
         let free: Vec<usize> = (0..part.coordinates.len()).filter(|at| !self.bound(part.coordinates[*at])).collect();
         let resistance = DMatrix::from_fn(free.len(), free.len(), |i, j| {
             -self.resistance[(part.coordinates[free[i]], part.coordinates[free[j]])]
         });
         let turning = (&resistance - resistance.transpose()).amax();
-        if turning <= NOISE * self.resistance.amax() {
+        if turning <= rounding.max(NOISE * self.resistance.amax()) {
             return Ok(Vec::new());
         }
         let values = eigenvalues(&resistance).ok_or(NoSpectrum)?;
@@ -324,7 +327,14 @@ impl System {
             let size = shape.norm();
             shape / C64::new(size, 0.0)
         };
-        Ok(found.into_iter().filter(|(value, _)| value.im > ROUNDING * fastest).map(shape).collect())
+        let mut shapes: Vec<_> = found.into_iter().filter(|(value, _)| value.im > rounding).map(shape).collect();
+        let made = if part.contractions.is_empty() { oscillations.saturating_sub(part.bound.len()) } else { 0 };
+        for k in shapes.len()..made.min(free.len() / 2) {
+            let mut shape = DVector::zeros(part.coordinates.len());
+            shape[free[2 * k]] = C64::new(1.0, 0.0);
+            shapes.push(shape);
+        }
+        Ok(shapes)
     }
 
     /// What an eigenvector moves.
@@ -352,13 +362,13 @@ impl System {
         }
     }
 
-    /// Joins real eigenvalues to pairs: those that move along free coordinates most with the zeros of these, the others
-    /// by likeness; those that contract most stay alone.
+    /// Joins real eigenvalues to pairs: those that move along free coordinates most with the zeros of those that do not
+    /// circle, the others by likeness; those that contract most stay alone.
     fn joined(
         &self,
         part: &Part,
         mut reals: Vec<(f64, Moved)>,
-        (neutral, pairs): (usize, usize),
+        (straight, pairs): (usize, usize),
         rounding: f64,
     ) -> Vec<EigenMotion> {
         let freedom = |(_, moved): &(f64, Moved)| -> f64 {
@@ -371,7 +381,7 @@ impl System {
             let eigenvalues: Vec<C64> = values.iter().map(|value| C64::new(*value, 0.0)).collect();
             EigenMotion { motion: judge(&eigenvalues, rounding, free), eigenvalues, shape, contraction, following }
         };
-        for (value, moved) in reals.drain(..neutral.min(reals.len())) {
+        for (value, moved) in reals.drain(..straight.min(reals.len())) {
             motions.push(motion(&[0.0, value], moved, true));
         }
         reals.sort_by(|a, b| b.1.contraction.norm().total_cmp(&a.1.contraction.norm()));

@@ -155,9 +155,9 @@ fn warnings_of_model(
         let moduli = match continuum.coordinates().count() > 3 {
             false => "and the moduli say what neighbours add to it",
             true => {
-                "and the moduli are those of a slow motion beside one that is the same in all of a cell, against which \
-                 its parts are held, too: they are not those of its waves, and other cells of the same lattice have \
-                 others (`gyration bands` tells the waves)"
+                "and the moduli are those of slow strains. The parts of a cell are held against one another as well, so \
+                 that these are not the moduli of its waves, and differ from those of a larger cell of the same \
+                 lattice: `gyration bands` tells the waves"
             }
         };
         warnings.push(format!("{held}, {moduli}"));

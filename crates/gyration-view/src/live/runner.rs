@@ -75,8 +75,7 @@ fn run_once(shared: &LiveState, subject: &Subject, scene: &Scene) -> Result<(), 
     let watched = WatchedRun::of(scene, &subject.provenance);
     let mut first = MemorySink::default();
     let mut simulation = watched.begun(&mut first)?;
-    watched.publish(&mut shared.store());
-    shared.tell_pause();
+    shared.begin(|store| watched.publish(store));
     let mut sink = Publisher { shared, network: watched.network(), told: Instant::now() };
     let told = first.hand_on(&mut sink);
     let began = Instant::now();

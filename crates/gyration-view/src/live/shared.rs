@@ -99,8 +99,14 @@ impl LiveState {
         self.tell_pause();
     }
 
-    /// Says in the store whether the run waits, which a store that begins anew has forgotten.
-    pub(super) fn tell_pause(&self) {
+    /// Begins a run in the store, which forgets whether the one before waited.
+    pub(super) fn begin(&self, publish: impl FnOnce(&mut Store)) {
+        publish(&mut self.store());
+        self.tell_pause();
+    }
+
+    /// Says in the store whether the run waits.
+    fn tell_pause(&self) {
         // Held until it is said: of two who say it the later one knows the last word.
         let control = self.control();
         self.store().pause(control.paused);
@@ -177,8 +183,7 @@ mod tests {
     fn a_store_that_begins_anew_is_told_of_a_pause() {
         let shared = LiveState::new(Vec::new());
         shared.pause(true);
-        shared.store().begin(&json!({}), Vec::new(), Vec::new());
-        shared.tell_pause();
+        shared.begin(|store| store.begin(&json!({}), Vec::new(), Vec::new()));
         let told = shared.store().take(&mut Cursor::default());
         let paused = |message: &Message| matches!(message, Message::Text(text) if text.contains("\"paused\":true"));
         assert!(told.iter().any(paused), "{told:?}");

@@ -7,6 +7,9 @@ use crate::shape::Shape;
 use crate::surface::{GapField, Surface};
 use crate::tensor::Vec3;
 
+/// So many overlaps of parts tell ways that are followed until all parts are left.
+const MOST_WAYS: usize = 8;
+
 /// Shape, mass and surface; ten thousand equal grains have one.
 #[derive(Debug, Clone)]
 pub struct Solid {
@@ -60,8 +63,8 @@ impl Solid {
         (0..one).flat_map(move |first| (0..other).map(move |second| [first, second]))
     }
 
-    /// How two overlap, if any of their parts do: of the ways out of two parts the one along which it is shortest to come
-    /// out of all.
+    /// The overlap of two, if any of their parts overlap: along that of the ways out of two parts, there and back, and
+    /// of the line of the centres, on which all parts are left soonest.
     pub fn overlap(solids: [&Self; 2], placements: [&Placement; 2]) -> Option<Overlap> {
         let surfaces = |[one, other]: [usize; 2]| [solids[0].part(one), solids[1].part(other)];
         let all: Vec<[usize; 2]> = Self::parts_of(solids).collect();
@@ -71,24 +74,29 @@ impl Solid {
             all.iter().filter_map(of).collect::<Vec<_>>()
         };
         let found = reaching(placements[0]);
-        if found.len() == all.len().min(1) {
+        if all.len() <= 1 {
             return found.into_iter().map(|(_, overlap)| overlap).next();
         }
-        let out = |(_, overlap): &([usize; 2], Overlap)| {
-            let (normal, mut depth) = (overlap.normal, overlap.depth);
-            // Parts that it reaches on its way are left behind, too: each of them once.
+        let depth_along = |parts: [usize; 2], normal: &Vec3| Overlap::depth_along(surfaces(parts), placements, normal);
+        let out = |normal: Vec3| {
+            let mut depth =
+                found.iter().map(|(parts, _)| depth_along(*parts, &normal)).fold(f64::NEG_INFINITY, f64::max);
+            // What the way leads into is left as well; no part comes back.
             for _ in 0..all.len() {
                 let moved = Placement { position: placements[0].position + depth * normal, ..*placements[0] };
                 let left = reaching(&moved).into_iter().filter(|(_, overlap)| !overlap.touches());
-                let more = left.map(|(parts, _)| Overlap::depth_along(surfaces(parts), placements, &normal));
-                match more.reduce(f64::max) {
+                match left.map(|(parts, _)| depth_along(parts, &normal)).reduce(f64::max) {
                     Some(more) if more > depth => depth = more,
                     _ => break,
                 }
             }
-            Overlap { depth, ..*overlap }
+            (normal, depth)
         };
-        found.iter().map(out).min_by(|one, other| one.depth.total_cmp(&other.depth))
+        let resolution = found.iter().map(|(_, overlap)| overlap.resolution).reduce(f64::max)?;
+        let own = found.iter().take(MOST_WAYS).flat_map(|(_, overlap)| [overlap.normal, -overlap.normal]);
+        let central = (placements[0].position - placements[1].position).try_normalize(0.0);
+        let shortest = own.chain(central).map(out).min_by(|(_, one), (_, other)| one.total_cmp(other));
+        shortest.map(|(normal, depth)| Overlap { normal, depth, resolution })
     }
 
     /// The largest radius of its parts about the centre of mass [m]; none without a surface.

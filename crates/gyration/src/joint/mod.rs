@@ -57,9 +57,9 @@ pub struct Joint {
     pub name: Arc<str>,
     /// How it joins them.
     pub kind: JointKind,
-    /// X and Y, each from its centre of mass; of space zero, which is the anchor [m].
+    /// X and Y, each from its centre of mass; zero of space and of a support, which are the anchor [m].
     pub points: [Vec3; 2],
-    /// The place of the joint in space, where the second party is space.
+    /// The place of the joint in space, where the second party is no body, and how a support carries it.
     pub anchor: Anchor,
     /// Whether the scene names them the other way round, and so is told of the force on the second.
     pub is_reversed: bool,
@@ -130,7 +130,7 @@ impl JointKind {
 }
 
 impl Joint {
-    /// A joint of these parties, in order, at these points of theirs; that of space is its place.
+    /// A joint of these parties, in order, at these points of theirs; that of no body is its place in space.
     ///
     /// `frames` have the columns a, b, c of each; of a distance `length` [m] is what it keeps.
     pub fn new(
@@ -199,7 +199,7 @@ impl Joint {
         Self { parties, ..self.clone() }
     }
 
-    /// The bodies that it joins; none of one to space.
+    /// The bodies that it joins; none of one to space or a support.
     pub fn bodies(&self) -> Option<[usize; 2]> {
         let [one, other] = self.parties.map(Party::body);
         Some([one?, other?])
@@ -325,7 +325,7 @@ impl Joint {
         }
     }
 
-    /// The material point of one of its parties, the anchor of space.
+    /// The material point of one of its parties, the anchor of no body.
     pub fn point(&self, end: usize) -> &Vec3 {
         if self.parties[end].body().is_some() { &self.points[end] } else { &self.anchor.start }
     }

@@ -21,6 +21,17 @@ pub struct Overlap {
     pub resolution: f64,
 }
 
+/// From the point of A that is lowest along a way to that of B that is highest.
+fn difference(surfaces: [&Surface; 2], placements: [&Placement; 2], normal: &Vec3) -> Vec3 {
+    // From the centre of B.
+    let lowest = |i: usize, normal: &Vec3| {
+        let Placement { position, gradient } = placements[i];
+        let field = GapField::new(0.0, gradient.tr_mul(normal));
+        position - placements[1].position + gradient * surfaces[i].smallest_gap(&field).1
+    };
+    lowest(1, &-normal) - lowest(0, normal)
+}
+
 /// A distance that cannot be told from zero, relative to the size and the distance of the centres.
 const RESOLUTION: f64 = 64.0 * f64::EPSILON;
 
@@ -30,17 +41,9 @@ impl Overlap {
         self.depth <= self.resolution
     }
 
-    /// How far A has to go along a direction until a plane across it stands between the two \[m\]; below zero where one
-    /// does.
+    /// The way of A along a direction until a plane across it stands between the two \[m\]; below zero where one does.
     pub fn depth_along(surfaces: [&Surface; 2], placements: [&Placement; 2], normal: &Vec3) -> f64 {
-        // The height of the point that is lowest along a way, over the centre of the body.
-        let lowest = |i: usize, way: &Vec3| {
-            let gradient = &placements[i].gradient;
-            let field = GapField::new(0.0, gradient.tr_mul(way));
-            way.dot(&(gradient * surfaces[i].smallest_gap(&field).1))
-        };
-        let between = (placements[0].position - placements[1].position).dot(normal);
-        -(lowest(1, &-normal) + lowest(0, normal) + between)
+        difference(surfaces, placements, normal).dot(normal)
     }
 
     /// Whether two convex bodies are apart.
@@ -69,13 +72,7 @@ impl Overlap {
             return Ok(());
         }
         let resolution: f64 = halves.iter().map(|half| half.side.least_gap).sum();
-        // The point of a body that is lowest along a way, from the centre of B.
-        let lowest = |i: usize, normal: &Vec3| {
-            let Placement { position, gradient } = placements[i];
-            let field = GapField::new(0.0, gradient.tr_mul(normal));
-            position - placements[1].position + gradient * surfaces[i].smallest_gap(&field).1
-        };
-        let difference = |normal: &Vec3| lowest(1, &-normal) - lowest(0, normal);
+        let difference = |normal: &Vec3| difference(surfaces, placements, normal);
         let told = |normal: Vec3| (normal, difference(&normal).dot(&normal));
         // Of bodies that touch, the line of the centres may be the way to the last digit.
         let central = between.try_normalize(0.0).map(told);

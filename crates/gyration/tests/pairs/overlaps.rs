@@ -102,7 +102,14 @@ fn the_way_out_of_a_union_is_one_out_of_all_its_parts() {
     };
     let stairs = solid(Shape::Union(Union { parts: vec![part(-0.1, 0.1), part(0.0, 0.16), part(0.1, 0.05)] }));
     let rod = solid(Shape::Cylinder(Cylinder { radius: 0.03, height: 0.2 }));
-    let still = at(-stairs.mass.center, &Mat3::identity());
+    let still = at(stairs.mass.center, &Mat3::identity());
+    // In the first step alone, whose shortest way out is into the second.
+    let upright = at(Vec3::new(-0.081, 0.0, 0.1), &Mat3::identity());
+    let found = Solid::overlap([&rod, &stairs], [&upright, &still]).unwrap();
+    // Out to the other side: 3 + 6.9 cm.
+    assert!((found.depth - 0.099).abs() < 1e-4 && found.normal.x < -0.99, "{found:?}");
+    let moved = at(upright.position + found.normal * (found.depth * 1.001), &Mat3::identity());
+    assert!(Solid::overlap([&rod, &stairs], [&moved, &still]).is_none(), "{found:?}");
     let mut ways = 0;
     for k in 0..200 {
         let place = |j: usize| (libm::fmod(0.618_033_988_75 * ((j + 1) * (k + 1)) as f64, 1.0) - 0.5) * 0.4;

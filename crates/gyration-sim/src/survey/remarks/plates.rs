@@ -48,7 +48,7 @@ pub(super) fn notes(model: &Model, start: &State) -> Vec<String> {
         )
     });
     let more = found.len().saturating_sub(MOST);
-    told.chain((more > 0).then(|| format!("and {more} bodies more are so over large faces"))).collect()
+    told.chain((more > 0).then(|| format!("{more} bodies more are beside the middle of large faces"))).collect()
 }
 
 /// The body on the one of a pair that is a plate, if it is.

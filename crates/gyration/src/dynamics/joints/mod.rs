@@ -217,6 +217,6 @@ impl JointEquations {
     }
     /// Equations of joints have become dependent.
     fn singular(&self, model: &Model) -> Inadmissible {
-        self.least_independent().left(model)
+        rank::dependent(model, self.least_independent())
     }
 }

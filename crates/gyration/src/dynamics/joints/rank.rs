@@ -22,12 +22,16 @@ pub struct DependentJoint {
 }
 
 impl DependentJoint {
-    /// What has left its domain by that.
-    pub fn left(&self, model: &Model) -> Inadmissible {
-        let joint = self.joint;
-        let body = model.joints()[joint].parties().into_iter().find_map(Party::body).unwrap_or(0);
-        Inadmissible { body, quantity: Quantity::Joints { joint }, value: 0.0 }
+    /// The state as one outside the model.
+    pub fn inadmissible(&self, model: &Model) -> Inadmissible {
+        dependent(model, self.joint)
     }
+}
+
+/// A state in which the equations of a joint follow from others.
+pub(super) fn dependent(model: &Model, joint: usize) -> Inadmissible {
+    let body = model.joints()[joint].parties().into_iter().find_map(Party::body).unwrap_or(0);
+    Inadmissible { body, quantity: Quantity::Joints { joint }, value: 0.0 }
 }
 
 impl Workspace {
@@ -62,12 +66,12 @@ impl JointEquations {
     }
 
     /// The joint whose equations are nearest to dependence on those before them; the first of several.
-    pub(super) fn least_independent(&self) -> DependentJoint {
+    pub(super) fn least_independent(&self) -> usize {
         let pivots = self.relative_pivots();
         let least = pivots.iter().copied().fold(f64::INFINITY, f64::min);
         let at = pivots.iter().position(|pivot| *pivot <= least).unwrap_or(0);
         let ranges = self.room.iter().flat_map(|room| &room.graph.ranges);
-        DependentJoint { joint: ranges.into_iter().position(|range| range.contains(&at)).unwrap_or(0), dependent: 1 }
+        ranges.into_iter().position(|range| range.contains(&at)).unwrap_or(0)
     }
 
     /// The pivot of each equation over its diagonal entry: about zero where it follows from those before it.
