@@ -3,6 +3,7 @@
 mod flattened;
 
 use crate::format::significant;
+use gyration::joint::JointKind;
 use gyration::load::FrictionFault;
 use gyration::model::Model;
 use gyration::{FormulaOf, Inadmissible, Party, Quantity};
@@ -326,7 +327,11 @@ impl Stop {
             ),
             Quantity::JointLimit { joint } => (
                 Reason::GapClosed,
-                format!("the joint {:?} reaches a limit{}", model.joints()[joint].name, in_brackets(left.value)),
+                {
+                    let joint = &model.joints()[joint];
+                    let unit = if joint.kind == JointKind::Hinge { "rad" } else { "m" };
+                    format!("the joint {:?} reaches a limit{}", joint.name, tried(left.value, unit))
+                },
                 "Its stop does not forbid that: raise its exponent, its coefficient or d0, or reduce the speed."
                     .to_string(),
             ),
@@ -453,7 +458,12 @@ fn sort(parties: [Party; 2]) -> &'static str {
 
 /// The gap, if the last attempt left one to tell.
 fn in_brackets(gap: f64) -> String {
-    if gap.is_finite() { format!(" (smallest gap tried {gap:e} m)") } else { String::new() }
+    tried(gap, "m")
+}
+
+/// The same in a unit.
+fn tried(gap: f64, unit: &str) -> String {
+    if gap.is_finite() { format!(" (smallest gap tried {gap:e} {unit})") } else { String::new() }
 }
 
 /// The estimated error, if there is a matrix at all.

@@ -104,7 +104,9 @@ pub enum NoOrbit {
         reason: String,
     },
     /// The search came to a stop.
-    #[error("no start comes back to itself: after {period} s the nearest is {misfit:.1e} of how far it goes away")]
+    #[error(
+        "no start near by comes back to itself: after {period} s the nearest is {misfit:.1e} of how far it goes away"
+    )]
     NotFound {
         /// The period of the last one tried \[s\].
         period: f64,

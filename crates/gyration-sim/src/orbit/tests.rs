@@ -46,7 +46,7 @@ fn an_orbit_has_its_period_however_far_it_goes() {
     };
     // Places have the digits of a metre.
     let said = orbit(&well(1e-9), &OrbitChoice::Nearest).unwrap_err();
-    assert!(said.contains("no start comes back to itself"), "{said}");
+    assert!(said.contains("no start near by comes back to itself"), "{said}");
     for scale in [1e6, 1e-3, 1e-4] {
         let well = well(scale);
         let found = orbit(&well, &OrbitChoice::Nearest).unwrap();
