@@ -60,7 +60,8 @@ pub(super) fn along<E>(
             let (bend, rounding) = ((near - far).abs(), f64::EPSILON * a[i].abs().max(d[i].abs()) / step);
             // The error of fourth order is that of second squared.
             let error = bend.min(bend * bend / slope.abs()).max(0.0) + rounding;
-            (slope, error, bend <= 4.0 * rounding || error <= AGREE * slope.abs())
+            // What is no number is none over any step.
+            (slope, error, bend.is_nan() || bend <= 4.0 * rounding || error <= AGREE * slope.abs())
         });
         let found: Vec<(f64, f64, bool)> = found.collect();
         let do_agree = found.iter().all(|(_, _, agrees)| *agrees);
