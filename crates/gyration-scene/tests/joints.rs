@@ -163,10 +163,11 @@ fn a_mass_point_on_a_ball_joint_starts_as_its_body_moves() {
         let [x, z] = [0.1 * f64::cos(angle), -0.1 * f64::sin(angle)];
         let bodies = |velocity: &str| {
             format!(
-                "{TIME}[[body]]\nname = \"rod\"\nshape = {{ box = {{ size = [0.2, 0.02, 0.02] }} }}\nmass = 1\norientation = \
-                 {{ axis_angle = {{ axis = [0, 1, 0], angle = {angle:?} }} }}\n[[body]]\nname = \"tip\"\nshape = {{ points = \
-                 [{{ mass = 0.1, at = [0, 0, 0] }}] }}\nposition = [{x:?}, 0, {z:?}]\nvelocity = {velocity}\n[[joint]]\nname = \
-                 \"j\"\nbetween = [\"rod\", \"tip\"]\nkind = \"ball\"\npoints = [[0.1, 0, 0], [0, 0, 0]]\n"
+                "{TIME}[[body]]\nname = \"rod\"\nshape = {{ box = {{ size = [0.2, 0.02, 0.02] }} }}\nmass = 1\n\
+                 orientation = {{ axis_angle = {{ axis = [0, 1, 0], angle = {angle:?} }} }}\n[[body]]\n\
+                 name = \"tip\"\nshape = {{ points = [{{ mass = 0.1, at = [0, 0, 0] }}] }}\n\
+                 position = [{x:?}, 0, {z:?}]\nvelocity = {velocity}\n[[joint]]\nname = \"j\"\n\
+                 between = [\"rod\", \"tip\"]\nkind = \"ball\"\npoints = [[0.1, 0, 0], [0, 0, 0]]\n"
             )
         };
         let found = told(&bodies("[0, 0, 3]"));
@@ -181,9 +182,9 @@ fn velocities_and_places_of_the_smallest_bodies_are_held_to_the_same_digits() {
         let ball = |velocity: &str| {
             let length = 10.0 * radius;
             format!(
-                "{TIME}[[body]]\nname = \"a\"\nshape = {{ sphere = {{ radius = {radius:?} }} }}\ndensity = 1000\nvelocity = \
-                 {velocity}\n[[joint]]\nname = \"j\"\nbetween = [\"space\", \"a\"]\nkind = \"distance\"\npoints = [[0, 0, \
-                 {length:?}], [0, 0, 0]]\n"
+                "{TIME}[[body]]\nname = \"a\"\nshape = {{ sphere = {{ radius = {radius:?} }} }}\ndensity = 1000\n\
+                 velocity = {velocity}\n[[joint]]\nname = \"j\"\nbetween = [\"space\", \"a\"]\n\
+                 kind = \"distance\"\npoints = [[0, 0, {length:?}], [0, 0, 0]]\n"
             )
         };
         assert!(told(&ball("[1, 0, 1e-6]")).contains("would part at"), "{radius}");
@@ -192,9 +193,9 @@ fn velocities_and_places_of_the_smallest_bodies_are_held_to_the_same_digits() {
     // A box of a tenth of a micrometre, turned about a line that is oblique to its axes.
     for angle in [0.3, 1.1, 2.0] {
         let text = format!(
-            "{TIME}[[body]]\nname = \"a\"\nshape = {{ box = {{ size = [1e-8, 2e-8, 3e-8] }} }}\ndensity = 1000\norientation = {{ \
-             axis_angle = {{ axis = [1, 2, 3], angle = {angle:?} }} }}\n[[joint]]\nname = \"j\"\nbetween = [\"space\", \
-             \"a\"]\nkind = \"weld\"\n"
+            "{TIME}[[body]]\nname = \"a\"\nshape = {{ box = {{ size = [1e-8, 2e-8, 3e-8] }} }}\ndensity = 1000\n\
+             orientation = {{ axis_angle = {{ axis = [1, 2, 3], angle = {angle:?} }} }}\n[[joint]]\n\
+             name = \"j\"\nbetween = [\"space\", \"a\"]\nkind = \"weld\"\n"
         );
         assert_eq!(told(&text), "", "{angle}");
     }
@@ -217,8 +218,8 @@ fn the_nearest_velocities_are_those_of_all_bodies_without_rounding() {
     // A straight row between two points that stand: no velocities are near.
     let [top, bottom] = [("top", "a", 0.1), ("bottom", "b", -0.3)].map(|(name, body, z)| {
         format!(
-            "[[joint]]\nname = \"{name}\"\nbetween = [\"space\", \"{body}\"]\nkind = \"ball\"\npoints = [[0, 0, {z:?}], [0, 0, \
-             {:?}]]\n",
+            "[[joint]]\nname = \"{name}\"\nbetween = [\"space\", \"{body}\"]\nkind = \"ball\"\n\
+             points = [[0, 0, {z:?}], [0, 0, {:?}]]\n",
             if body == "a" { 0.1 } else { -0.1 }
         )
     });

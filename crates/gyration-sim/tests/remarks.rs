@@ -340,7 +340,8 @@ fn a_contraction_that_begins_at_a_rate_and_turns_its_body_is_told() {
 #[test]
 fn a_support_that_nothing_names_is_told() {
     let block = "[[support]]\nname = \"floor\"\nshape = { box = { size = [1, 1, 1] } }\nposition = [0, 0, -0.6]\n";
-    let joint = "[[joint]]\nname = \"rod\"\nbetween = [\"floor\", \"a\"]\nkind = \"distance\"\npoints = [[0, 0, 0], [0, 0, 0]]\n";
+    let joint = "[[joint]]\nname = \"rod\"\nbetween = [\"floor\", \"a\"]\nkind = \"distance\"\n\
+                 points = [[0, 0, 0], [0, 0, 0]]\n";
     let above = |support: &str, lines: &str| {
         remarks(&format!("{HEAD}{support}{}{lines}", ball("a", 0.02, "position = [0, 0, 1]\n"))).notes
     };

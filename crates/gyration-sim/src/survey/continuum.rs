@@ -155,8 +155,8 @@ fn warnings_of_model(
         let moduli = match continuum.coordinates().count() > 3 {
             false => "and the moduli say what neighbours add to it",
             true => {
-                "and the moduli are those of slow strains. The parts of a cell are held against one another as well, so \
-                 that these are not the moduli of its waves, and differ from those of a larger cell of the same \
+                "and the moduli are those of slow strains. The parts of a cell are held against one another as well, \
+                 so that these are not the moduli of its waves, and differ from those of a larger cell of the same \
                  lattice: `gyration bands` tells the waves"
             }
         };

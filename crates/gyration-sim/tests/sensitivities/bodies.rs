@@ -142,8 +142,8 @@ fn bodies_that_meet_agree_with_differences_of_runs() {
     assert!(worst < 1e-5, "{worst:e}");
 }
 
-/// A step of force a tenth of a millimetre wide, on a body of half a metre: its size says nothing of that. Symptom: ∂W/∂v
-/// had the wrong sign.
+/// A step of force a tenth of a millimetre wide, on a body of half a metre: its size says nothing of that. Symptom:
+/// ∂W/∂v had the wrong sign.
 #[test]
 fn works_of_a_force_that_changes_within_less_than_a_body_are_followed() {
     let text = r#"

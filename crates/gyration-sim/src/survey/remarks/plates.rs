@@ -42,8 +42,8 @@ pub(super) fn notes(model: &Model, start: &State) -> Vec<String> {
     let found: Vec<OnPlate> = between.filter_map(|pair| on(&pair)).chain(at_supports.filter_map(on)).collect();
     let told = found.iter().take(MOST).map(|OnPlate { body, plate, push }| {
         format!(
-            "\"{body}\" is beside the middle of a large face of \"{plate}\", which is felt as a whole: where it lies there, {} \
-             of its weight pushes it away; floors and tables are planes",
+            "\"{body}\" is beside the middle of a large face of \"{plate}\", which is felt as a whole: where it lies \
+             there, {} of its weight pushes it away; floors and tables are planes",
             significant(*push, 2)
         )
     });
