@@ -252,7 +252,7 @@ impl Stop {
         let (reason, what, advice) = match left.quantity {
             Quantity::Gap { support } => (
                 Reason::GapClosed,
-                format!("body {body:?} reaches support {:?}{}", model.supports[support].name, in_brackets(left.value)),
+                format!("body {body:?} reaches support {:?}{}", model.supports[support].name, in_brackets(left.value, "m")),
                 "Either no law forbids the touch (`gyration check` tells the critical exponent), or the gap is too \
                  small for the digits of a number: raise an exponent, a coefficient or d0, or reduce the speed."
                     .to_string(),
@@ -275,7 +275,7 @@ impl Stop {
                 let [one, other] = parties.map(|party| model.party_name(party));
                 (
                     Reason::GapClosed,
-                    format!("{} {one:?} and {other:?} reach each other{}", sort(parties), in_brackets(left.value)),
+                    format!("{} {one:?} and {other:?} reach each other{}", sort(parties), in_brackets(left.value, "m")),
                     hardly_forbidden(model, parties, rule).unwrap_or_else(|| {
                         "The gap is too small for the digits of a number: raise an exponent, a coefficient or d0, or \
                          reduce the speed."
@@ -312,7 +312,7 @@ impl Stop {
                 format!(
                     "the spheres {body:?} and {:?}, which feel each other through the fluid, touch{}",
                     model.name(other),
-                    in_brackets(left.value)
+                    in_brackets(left.value, "m")
                 ),
                 "No force that is finite presses them together through the fluid, but a step may, and inertia of a \
                  fast one: start them apart, lower `rtol`, or give them a contact that holds them off."
@@ -330,7 +330,7 @@ impl Stop {
                 {
                     let joint = &model.joints()[joint];
                     let unit = if joint.kind == JointKind::Hinge { "rad" } else { "m" };
-                    format!("the joint {:?} reaches a limit{}", joint.name, tried(left.value, unit))
+                    format!("the joint {:?} reaches a limit{}", joint.name, in_brackets(left.value, unit))
                 },
                 "Its stop does not forbid that: raise its exponent, its coefficient or d0, or reduce the speed."
                     .to_string(),
@@ -456,13 +456,8 @@ fn sort(parties: [Party; 2]) -> &'static str {
     if parties.iter().all(|party| party.body().is_some()) { "bodies" } else { "body and support" }
 }
 
-/// The gap, if the last attempt left one to tell.
-fn in_brackets(gap: f64) -> String {
-    tried(gap, "m")
-}
-
-/// The same in a unit.
-fn tried(gap: f64, unit: &str) -> String {
+/// The gap in a unit, if the last attempt left one to tell.
+fn in_brackets(gap: f64, unit: &str) -> String {
     if gap.is_finite() { format!(" (smallest gap tried {gap:e} {unit})") } else { String::new() }
 }
 

@@ -45,13 +45,11 @@ pub(super) fn along<E>(
             [Ok(a), Ok(b), Ok(c), Ok(d)] => [a, b, c, d],
             [Err(fault), ..] | [_, Err(fault), ..] | [_, _, Err(fault), _] | [_, _, _, Err(fault)] => {
                 // A finer one that is not known adds nothing to what is.
-                if best.is_empty() && !is_last {
-                    continue;
+                match (best.is_empty(), is_last) {
+                    (true, false) => continue,
+                    (true, true) => return Err(fault),
+                    (false, _) => break,
                 }
-                if best.is_empty() {
-                    return Err(fault);
-                }
-                break;
             }
         };
         let found = (0..a.len()).map(|i| {

@@ -57,7 +57,7 @@ pub struct ContactLoads {
 }
 
 /// What the whole of a surface tells each part of it: laws with a bound, and one-sided ones, are not sums over parts.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub struct Overall {
     /// σ, by which a bound multiplies friction.
     friction: Option<f64>,
