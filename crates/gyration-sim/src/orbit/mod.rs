@@ -14,33 +14,26 @@ mod shift;
 mod survey;
 #[cfg(test)]
 mod tests;
+mod trial;
 
 pub use choice::{Choice, energy};
 pub use shift::{CellShift, NoShift};
 pub use survey::{OrbitChoice, OrbitStart, OrbitSurvey};
 
-use crate::adapter::Tolerance;
 use crate::eigenvalues::eigenvalues;
 use crate::plan::RunPlan;
-use crate::sensitivity::{Flow, NoFlow, each_state};
-use chart::{Chart, align, change, largest_of_kind, scales};
-use choice::{seen, value, wanted};
+use crate::sensitivity::each_state;
+use chart::{change, largest_of_kind, scales};
+use choice::{seen, wanted};
 use gyration::Inadmissible;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration_ode::{ImplicitOrder, Options};
-use nalgebra::{Complex, ComplexField as _, DMatrix, DVector};
+use nalgebra::{Complex, ComplexField as _, DVector};
 use std::cmp::Ordering;
+use trial::Trial;
 
-/// The tolerance of its runs, if that of the scene is not smaller; of a motion that goes less far than its bodies are
-/// long that part of it.
-const RTOL: f64 = 1e-12;
-/// It is no less than that.
-const LEAST_RTOL: f64 = 1e-15;
 /// Misfits, as parts of how far a motion goes, below which an orbit is found.
 const FOUND: f64 = 1e-9;
-/// A motion that goes less far is rest, in scales.
-const REST: f64 = 1e-14;
 /// Rates that differ by less than this part of the largest along an orbit are the same.
 const SAME: f64 = 1e-6;
 /// After so many periods what drives a scene is compared with what it was.
@@ -48,8 +41,8 @@ const REPETITIONS: [f64; 3] = [1.0, 2.0, 3.0];
 /// So many steps are tried, and each is halved so often.
 const MOST_STEPS: usize = 40;
 const MOST_HALVINGS: usize = 8;
-/// Singular values below this part of the largest determine nothing.
-const UNDETERMINED: f64 = 1e-8;
+/// Where nothing is found a motion that has losses goes on for so many periods first, which bring it to what attracts it.
+const SETTLING: [f64; 2] = [8.0, 64.0];
 /// Multipliers this near to one are those of phase and symmetries.
 const TRIVIAL: f64 = 1e-3;
 /// Others may be this much above one in size and still be stable.
@@ -60,8 +53,6 @@ const KEPT: f64 = 1e-4;
 const LEAST_SPAN: f64 = 1e-9;
 /// Sweeps of an iteration at most; a few for each row are the rule.
 const SWEEPS: usize = 10_000;
-/// A quantity is varied by this part of the scales.
-const PROBE: f64 = 1e-5;
 
 /// Motions of a model among which one is looked for.
 #[derive(Debug, Clone)]
@@ -156,27 +147,30 @@ pub enum NoOrbit {
     },
 }
 
-/// A start that is tried, with what comes of it.
-struct Trial {
-    start: State,
-    period: f64,
-    /// S⁻¹ ∂φ_T/∂y₀ in coordinates.
-    derivative: DMatrix<f64>,
-    /// S⁻¹ y(T) − y₀ in coordinates, and ẏ at both.
-    gap: DVector<f64>,
-    rates: [DVector<f64>; 2],
-    /// What is left, and how far the motion goes, in scales.
-    misfit: f64,
-    extent: f64,
-    chart: Chart,
-}
-
 impl Orbit {
-    /// Near a start, with a period to begin with.
+    /// Near a start, with a period to begin with; of a scene with a drive or with losses also near to what its motion
+    /// comes to by itself.
     ///
     /// # Errors
     /// [`NoOrbit`].
     pub fn near(search: &OrbitSearch<'_>, start: &State, period: f64, choice: &Choice<'_>) -> Result<Self, NoOrbit> {
+        let first = Self::about(search, start, period, choice);
+        if !matches!((&first, choice), (Err(NoOrbit::NotFound { .. }), Choice::Period | Choice::Alone)) {
+            return first;
+        }
+        let mut start = start.clone();
+        for periods in SETTLING {
+            let Some(later) = search.after(&start, periods * period) else { break };
+            start = later;
+            if let Ok(found) = Self::about(search, &start, period, choice) {
+                return Ok(found);
+            }
+        }
+        first
+    }
+
+    /// Where Newton's steps from a start lead.
+    fn about(search: &OrbitSearch<'_>, start: &State, period: f64, choice: &Choice<'_>) -> Result<Self, NoOrbit> {
         let model = search.model;
         if model.bodies.iter().any(|body| body.history().is_some()) {
             return Err(NoOrbit::Remembers);
@@ -270,6 +264,15 @@ impl OrbitSearch<'_> {
         self.shift.as_ref().map_or_else(|| state.clone(), |shift| shift.back(state))
     }
 
+    /// The state of a run after a time \[s\], as one to begin with; none where the run ends before.
+    fn after(&self, start: &State, time: f64) -> Option<State> {
+        let mut last = None;
+        let ended = each_state(self.model, start, &RunPlan { end: time, ..*self.plan }, |state| {
+            last = Some(State { time: 0.0, ..state.clone() });
+        });
+        ended.ok().and(last)
+    }
+
     /// Whether rates along a motion are others at another time: supports that go on or turn change more than the
     /// velocity of a surface that stays where it is.
     fn is_carried(&self, trial: &mut Trial) -> Result<bool, NoOrbit> {
@@ -304,121 +307,5 @@ impl OrbitSearch<'_> {
         });
         ended.map_err(|error| NoOrbit::Flow { period: plan.end, reason: error.to_string() })?;
         Ok(if difference > 0.0 { difference / largest } else { 0.0 })
-    }
-}
-
-impl Trial {
-    fn of(search: &OrbitSearch<'_>, start: State, period: f64) -> Result<Self, NoOrbit> {
-        let OrbitSearch { model, plan, .. } = *search;
-        let mut start = State { time: 0.0, ..start };
-        let mut chart = Chart::about(model, &start, period)?;
-        if chart.directions().is_empty() {
-            return Err(NoOrbit::NothingMoves);
-        }
-        chart.project(&mut start);
-        let mut extent = 0.0_f64;
-        let lost = |error: NoFlow| NoOrbit::Flow { period, reason: error.to_string() };
-        each_state(model, &start, &RunPlan { end: period, ..*plan }, |state| {
-            extent = extent.max(chart.size(&change(model, &start, state)));
-        })
-        .map_err(lost)?;
-        if extent < REST {
-            return Err(NoOrbit::AtRest);
-        }
-        let rtol = plan.tolerance.rtol.min((RTOL * extent.min(1.0)).max(LEAST_RTOL));
-        let tolerance = Tolerance { rtol, atol: plan.tolerance.atol.min(rtol) };
-        let options = Options { order: ImplicitOrder::at_tolerance(tolerance.rtol), ..plan.options };
-        let plan = RunPlan { end: period, tolerance, options, ..*plan };
-        let flow = Flow::of(model, &start, &plan, &chart.directions());
-        let flow = flow.map_err(lost)?;
-        let end = search.back(&flow.end);
-        let mut derivative = match &search.shift {
-            None => flow.derivative,
-            Some(shift) => shift.rows_back(&flow.derivative),
-        };
-        align(model, &start, &end, &mut derivative);
-        let left = change(model, &start, &end);
-        let column = |change: &DVector<f64>, chart: &Chart| {
-            chart.coordinates(&DMatrix::from_column_slice(change.len(), 1, change.as_slice())).column(0).into_owned()
-        };
-        let first = chart.rates(0.0, &start)?;
-        let mut last = DMatrix::from_column_slice(first.len(), 1, chart.rates(period, &end)?.as_slice());
-        align(model, &start, &end, &mut last);
-        let rates = [column(&first, &chart), column(&last.column(0).into_owned(), &chart)];
-        Ok(Self {
-            misfit: chart.size(&left),
-            gap: column(&left, &chart),
-            derivative: chart.coordinates(&derivative),
-            rates,
-            extent,
-            start,
-            period,
-            chart,
-        })
-    }
-
-    /// By what it is no orbit: the misfit as a part of how far it goes, and what it is chosen by.
-    fn missed(&self, off: f64) -> f64 {
-        self.misfit / self.extent + off.abs()
-    }
-
-    /// Newton's step of coordinates, in scales, and period, as a part of it.
-    fn step(&mut self, model: &Model, choice: &Choice<'_>, driven: bool, off: f64) -> Result<DVector<f64>, NoOrbit> {
-        let d = self.gap.len();
-        let mut equations = DMatrix::zeros(d + 2, d + 1);
-        let mut right = DVector::zeros(d + 2);
-        equations.view_mut((0, 0), (d, d)).copy_from(&(&self.derivative - DMatrix::identity(d, d)));
-        right.rows_mut(0, d).copy_from(&-&self.gap);
-        let size = self.rates[0].norm();
-        if !driven && size > 0.0 {
-            equations.view_mut((d, 0), (1, d)).copy_from(&(self.rates[0].transpose() / size));
-        }
-        // The last unknown counts as how far the end moves with the period, and what an orbit is chosen by as how far a
-        // start must move: all equations then are of one size, however short the path.
-        let moves = self.period * self.rates[1].norm();
-        if !matches!(choice, Choice::Period) && moves > 0.0 {
-            equations.view_mut((0, d), (d, 1)).copy_from(&self.rates[1].normalize());
-        }
-        match choice {
-            Choice::Period | Choice::Alone => {}
-            Choice::Energy(_) | Choice::Quantity(..) => {
-                let slope = self.slope(model, choice)?;
-                let steepness = slope.norm();
-                if steepness > 0.0 {
-                    equations.view_mut((d + 1, 0), (1, d)).copy_from(&(slope.transpose() / steepness));
-                    right[d + 1] = -off / steepness;
-                }
-            }
-        }
-        let found = equations.try_svd(true, true, f64::EPSILON, SWEEPS).ok_or(NoOrbit::NotComputed("step"))?;
-        let least = UNDETERMINED * found.singular_values.max();
-        let mut step = found.solve(&right, least).unwrap_or_else(|_| DVector::zeros(d + 1));
-        // A part of the period.
-        step[d] = if moves > 0.0 { step[d] / moves } else { 0.0 };
-        Ok(step)
-    }
-
-    /// The derivative of what an orbit is chosen by, by differences.
-    fn slope(&mut self, model: &Model, choice: &Choice<'_>) -> Result<DVector<f64>, NoOrbit> {
-        let d = self.gap.len();
-        let mut slope = DVector::zeros(d);
-        for k in 0..d {
-            let mut beside = |side: f64| {
-                let mut coordinates = DVector::zeros(d);
-                coordinates[k] = side * PROBE;
-                let state = self.chart.moved(&self.start, &coordinates);
-                Ok::<f64, NoOrbit>(value(model, choice, &state)?)
-            };
-            slope[k] = (beside(1.0)? - beside(-1.0)?) / (2.0 * PROBE);
-        }
-        Ok(slope)
-    }
-
-    /// What comes of a step.
-    fn moved(&mut self, search: &OrbitSearch<'_>, step: &DVector<f64>) -> Result<Self, NoOrbit> {
-        let d = self.gap.len();
-        let start = self.chart.moved(&self.start, &step.rows(0, d).into_owned());
-        let period = self.period * (1.0 + step[d].clamp(-0.5, 0.5));
-        Self::of(search, start, period)
     }
 }

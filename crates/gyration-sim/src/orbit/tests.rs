@@ -198,3 +198,19 @@ rest_length = 0.1
     assert!((found.period - 0.5 * std::f64::consts::PI / 160_f64.sqrt()).abs() < 1e-10, "{}", found.period);
     assert!(found.stable && found.multipliers.len() == 8, "{found:?}");
 }
+
+/// ẍ + 0.3 ẋ − x + x³ = 0.2 cos 1.2 t: from 3 and −2 Newton's steps lead nowhere, what the motion comes to is an orbit.
+#[test]
+fn a_driven_motion_with_losses_is_followed_to_what_it_comes_to() {
+    let period = 2.0 * std::f64::consts::PI / 1.2;
+    let duffing = |x: f64| {
+        let text = WELL.replace("0.5*x^2 + 0.25*x^4", "-0.5*x^2 + 0.25*x^4 - 0.2*x*cos(1.2*t)");
+        let row = |k: usize| (0..12).map(|i| if i == k && k < 3 { 0.3 } else { 0.0 }).collect::<Vec<f64>>();
+        let friction: Vec<_> = (0..12).map(row).collect();
+        format!("{}linear_friction = {{ matrix = {friction:?} }}\n", text.replace("[0.9,", &format!("[{x},")))
+    };
+    for x in [0.0, 0.3, 3.0, -2.0] {
+        let found = orbit(&duffing(x), &OrbitChoice::Period(period)).unwrap();
+        assert!(found.misfit < 1e-9, "{x}: {found:?}");
+    }
+}
