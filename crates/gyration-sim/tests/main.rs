@@ -21,6 +21,7 @@ mod joined;
 mod joint_modes;
 mod joint_survey;
 mod joints;
+mod lattice_exports;
 mod lattices;
 mod long_bodies;
 mod meetings;

@@ -31,7 +31,7 @@ use gyration::model::Model;
 use gyration::state::{RigidStart, Start, State};
 use gyration::tensor::{Mat3, Vec3, axial};
 use gyration_record::Recording;
-use gyration_scene::Scene;
+use gyration_scene::{CellBlock, Scene};
 use nalgebra::{Rotation3, UnitQuaternion};
 use std::sync::Arc;
 use window::{Window, WindowRow};
@@ -42,6 +42,8 @@ pub struct Replay {
     model: Model,
     /// By which its bodies follow one another without end.
     periods: Lattice,
+    /// Its cells, of a lattice.
+    cells: Option<CellBlock>,
     window: Window,
     workspace: Workspace,
 }
@@ -59,10 +61,11 @@ impl Replay {
 
     /// Of a recording and its scene, as `scene` has built it again.
     pub(crate) fn of(recording: &Recording, scene: &Scene) -> Self {
-        let (model, periods) = (scene.built().model.clone(), scene.built().periods());
+        let built = scene.built();
         // Those of a lattice span a cell.
-        let periods = Lattice::new(periods).unwrap_or_default();
-        Self { model, periods, window: Window::new(recording), workspace: Workspace::default() }
+        let periods = Lattice::new(built.periods()).unwrap_or_default();
+        let (model, window) = (built.model.clone(), Window::new(recording));
+        Self { model, periods, cells: built.block, window, workspace: Workspace::default() }
     }
 
     /// The model.
@@ -73,6 +76,11 @@ impl Replay {
     /// The vectors by which the bodies follow one another without end; those of a lattice span a cell.
     pub(crate) fn periods(&self) -> &Lattice {
         &self.periods
+    }
+
+    /// How many cells there are along each vector of the lattice, and which of these are periodic.
+    pub(crate) fn cells(&self) -> Option<CellBlock> {
+        self.cells
     }
 
     /// The state at a sample.

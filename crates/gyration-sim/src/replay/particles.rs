@@ -2,23 +2,28 @@
 //!
 //! | column | unit | what |
 //! |---|---|---|
-//! | `species` | – | the shape, as the scene calls it |
+//! | `type` | – | the shape, as the scene calls it |
 //! | `id` | – | index of the body |
 //! | `pos`, `velo` | m, m/s | p₀, ṗ₀ |
 //! | `force` | N | of all contacts |
 //! | `mass`, `radius` | kg, m | of the body; of the sphere about its shape |
 //! | `aspherical_shape`, `orientation` | m, – | half-extents along axes of its own, and how these are turned, x y z w |
+//! | | | of cylinders and capsules radius, radius and the height of the cylinder, as OVITO takes them |
 //! | `angular_velocity` | rad/s | half the vorticity of Ṗ P⁻¹, in space |
 //! | `placement` | – | P, row by row |
 //!
 //! The axes are those of the shape, P = R U with half-extents U_ii times those of the shape. A ball that deforms is an
-//! ellipsoid, told exactly: the axes are those of U. Numbers have as many digits as bring them back.
+//! ellipsoid, told exactly: the axes are those of U. Numbers have as many digits as bring them back. Where bodies follow
+//! one another without end, a frame has the parallelepiped that all of them fill (`cell`).
 //!
 //! Source of the format: the manual of OVITO, "XYZ file reader".
 
+mod cell;
+
 use super::{Replay, ReplayError};
+use cell::FrameCell;
 use gyration::model::Model;
-use gyration::shape::Shape;
+use gyration::shape::{Capsule, Cylinder, Shape};
 use gyration::state::BodyMotion;
 use gyration::tensor::{Mat3, Polar, Vec3};
 use gyration_record::{Recording, cannot_write};
@@ -26,7 +31,7 @@ use nalgebra::{Rotation3, UnitQuaternion};
 use std::io::Write;
 
 /// What the columns are called, of which type, and how many numbers each has.
-const PROPERTIES: &str = "species:S:1:id:I:1:pos:R:3:velo:R:3:force:R:3:mass:R:1:radius:R:1:aspherical_shape:R:3:\
+const PROPERTIES: &str = "type:S:1:id:I:1:pos:R:3:velo:R:3:force:R:3:mass:R:1:radius:R:1:aspherical_shape:R:3:\
                           orientation:R:4:angular_velocity:R:3:placement:R:9";
 
 /// Writes each `every`-th sample, and the last; how many there are.
@@ -42,26 +47,17 @@ pub fn particles_xyz(recording: &Recording, every: usize, out: &mut impl Write) 
         let state = replay.state(*row)?;
         let forces = recording.read_rows("contact_force", *row..row + 1)?.data;
         let model = replay.model();
-        let mut text = format!("{}\n{}\n", forms.len(), head(model, state.time));
-        for (body, form) in forms.iter().enumerate() {
-            form.push(body, &state.motion(model, body), &forces[3 * body..][..3], &mut text);
+        let motions: Vec<BodyMotion> = (0..forms.len()).map(|body| state.motion_in_space(model, body)).collect();
+        let balls = motions.iter().zip(&forms).map(|(motion, form)| (motion.placement.position, form.radius));
+        let cell = replay.cells().and_then(|cells| FrameCell::about(&model.lattice, cells, balls));
+        let cell = cell.map_or_else(|| "pbc=\"F F F\"".to_owned(), |cell| cell.to_string());
+        let mut text = format!("{}\nProperties={PROPERTIES} Time={:e} {cell}\n", forms.len(), state.time);
+        for (body, (form, motion)) in forms.iter().zip(&motions).enumerate() {
+            form.push(body, motion, &forces[3 * body..][..3], &mut text);
         }
         out.write_all(text.as_bytes()).map_err(cannot_write(recording.path()))?;
     }
     Ok(rows.len())
-}
-
-/// The second line of a frame: the columns, the time and, of a crystal, the cell.
-fn head(model: &Model, time: f64) -> String {
-    let vectors = model.lattice.vectors();
-    let cell = match vectors {
-        [_, _, _] => {
-            let numbers: Vec<String> = vectors.iter().flatten().map(f64::to_string).collect();
-            format!(" Lattice=\"{}\" pbc=\"T T T\"", numbers.join(" "))
-        }
-        _ => " pbc=\"F F F\"".to_owned(),
-    };
-    format!("Properties={PROPERTIES} Time={time:e}{cell}")
 }
 
 /// What of a body stays.
@@ -69,6 +65,7 @@ struct Form {
     species: &'static str,
     mass: f64,
     radius: f64,
+    /// Along the axes of the shape; of those with an axis of symmetry as OVITO takes them.
     half_extents: Vec3,
     is_ball: bool,
     deforms: bool,
@@ -78,7 +75,12 @@ impl Form {
     fn of(model: &Model, body: usize) -> Self {
         let solid = &model.bodies[body].solid;
         let bounds = solid.shape.bounds();
-        let half_extents = 0.5 * (bounds.max - bounds.min);
+        let half_extents = match &solid.shape {
+            Shape::Cylinder(Cylinder { radius, height }) | Shape::Capsule(Capsule { radius, height }) => {
+                Vec3::new(*radius, *radius, *height)
+            }
+            _ => 0.5 * (bounds.max - bounds.min),
+        };
         let is_ball = matches!(solid.shape, Shape::Sphere(_));
         let deforms = model.bodies[body].affine().is_some();
         Self {

@@ -103,9 +103,14 @@ impl<'a> Snapshot<'a> {
 }
 
 impl BodySnapshot<'_> {
-    /// How it moves.
+    /// How it moves; of a body of a lattice in its own cell.
     pub fn motion(&self) -> &BodyMotion {
         &self.motion
+    }
+
+    /// The place in space \[m\] of a material point X (from the centre of mass).
+    pub fn place(&self, point: &Vec3) -> Vec3 {
+        self.model.in_space(self.body, &self.motion.placement.place(point))
     }
 
     /// The distance of a material point X (from the centre of mass) to the nearest support \[m\]; infinite without any.

@@ -155,7 +155,7 @@ impl<'a> VtkSample<'a> {
         }
         Ok(PolyData {
             topology: self.figures.topology(),
-            points: self.at_points(|body, x| body.motion().placement.place(x).into()),
+            points: self.at_points(|body, x| body.place(x).into()),
             point_data,
             cell_data,
             field_data: Vec::new(),
