@@ -221,6 +221,16 @@ impl DrawnMotion {
         self.parts().iter().any(|part| matches!(part, DrawnMotionPart::Rotate { .. }))
     }
 
+    /// The shortest period of an oscillation or a turn \[s\]; infinite of what does neither.
+    pub fn shortest_period(&self) -> f64 {
+        let period = |part: &DrawnMotionPart| match part {
+            DrawnMotionPart::Velocity(_) => f64::INFINITY,
+            DrawnMotionPart::Oscillate { frequency, .. } => frequency.abs().recip(),
+            DrawnMotionPart::Rotate { rate, .. } => TAU / rate.abs(),
+        };
+        self.parts().iter().map(period).fold(f64::INFINITY, f64::min)
+    }
+
     /// How a support is carried until a time: x = R x₀ + b, R and b \[m\].
     pub fn carried(&self, time: f64) -> (UnitQuaternion<f64>, Vec3) {
         let (mut turn, mut shift, mut displacement) = (UnitQuaternion::identity(), Vec3::zeros(), Vec3::zeros());

@@ -65,6 +65,16 @@ impl GradientFactors {
         outer * Mat3::from_diagonal(&self.stretches) * inner
     }
 
+    /// What a player of the animation shows at a part of the way to the next key: rotations turned on, on the shorter
+    /// way, and scales in proportion.
+    pub fn between(&self, to: &Self, part: f64) -> Self {
+        Self {
+            outer: turned_on(&self.outer, &to.outer, part),
+            stretches: self.stretches.lerp(&to.stretches, part),
+            inner: turned_on(&self.inner, &to.inner, part),
+        }
+    }
+
     /// What a player of the animation shows half-way between two keys: spherical means of rotations, the mean of
     /// scales.
     pub fn half_way(&self, to: &Self) -> Self {
@@ -107,8 +117,11 @@ fn turn(c: &mut Mat3, v: &mut Mat3, i: usize, j: usize) -> bool {
     true
 }
 
+/// The quaternion of a matrix that is a rotation to rounding; its length must be one, since the factors of the next key
+/// begin at it, and a matrix has its square.
 fn rotation(matrix: &Mat3) -> UnitQuaternion<f64> {
-    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*matrix))
+    let found = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*matrix));
+    UnitQuaternion::new_normalize(found.into_inner())
 }
 
 /// The quaternion of the two that mean the same rotation that lies nearer.
@@ -119,4 +132,12 @@ pub(super) fn nearest_sign(q: UnitQuaternion<f64>, last: &UnitQuaternion<f64>) -
 /// The spherical mean, on the shorter way.
 fn half_way(a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(a.into_inner() + nearest_sign(*b, a).into_inner())
+}
+
+/// Spherical interpolation, on the shorter way.
+fn turned_on(a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>, part: f64) -> UnitQuaternion<f64> {
+    let (a, b) = (a.into_inner(), nearest_sign(*b, a).into_inner());
+    let angle = libm::acos(a.coords.dot(&b.coords).min(1.0));
+    let weight = |part: f64| if angle > 0.0 { libm::sin(part * angle) } else { part };
+    UnitQuaternion::new_normalize(a * weight(1.0 - part) + b * weight(part))
 }

@@ -24,7 +24,7 @@ use crate::error::RecordError;
 use crate::recording::Recording;
 use container::Numbers;
 use ground::Sheet;
-use motion::{Track, keys, tracks};
+use motion::{Track, carried_keys, keys, tracks};
 use nalgebra::UnitQuaternion;
 use serde_json::{Value, json};
 use shading::{shaded, single};
@@ -38,7 +38,7 @@ const TRIANGLES: u32 = 4;
 /// By how much a wireframe is larger than its body, so that it lies outside the triangles.
 const LIFT: f64 = 1.003;
 
-/// Writes the motion as binary glTF; returns the number of samples that became keys.
+/// Writes the motion as binary glTF; returns the number of samples that became keys, of the body of which most did.
 ///
 /// # Errors
 /// `NoSurfaces` if the recording is older than they are; `Corrupt`; those of reading; `Io` if `out` fails, under the
@@ -49,7 +49,7 @@ pub fn gltf(recording: &Recording, out: &mut impl Write) -> Result<usize, Record
     let tracks = tracks(recording, &drawing, &rows)?;
     let document = GltfDocument::new(&drawing, &tracks);
     document.write(recording, out).map_err(RecordError::io("write the glTF of", recording.path()))?;
-    Ok(rows.len())
+    Ok(tracks.iter().map(|track| track.samples).max().unwrap_or(rows.len()))
 }
 
 /// The document under construction.
@@ -204,8 +204,9 @@ impl GltfDocument {
         }
         self.nodes.push(first);
         if motion.moves() && !times.is_empty() {
+            let times = carried_keys(motion, times);
             let (places, turns): (Vec<_>, Vec<_>) = times.iter().map(|time| at(*time)).unzip();
-            let times = self.times(times);
+            let times = self.times(&times);
             self.animate(node, "translation", times, &places);
             if motion.turns() {
                 let turns: Vec<_> = continuous(turns.into_iter());

@@ -1,13 +1,14 @@
 //! The keys of an animation: which samples become keys, and what a body's nodes do at them.
 //!
-//! At most 60 keys a second, or 300 in all if that is more; all but those between two halvings are samples. Between
-//! keys a player interpolates translation, rotations and scales by themselves. Of a body that deforms the outcome
-//! half-way is compared with the natural mean of the two placements: where it is further off than the eye can see,
-//! because the axes of stretch turn, the interval is halved by a key at that mean.
+//! 60 keys a second, or 300 in all if that is more, are samples. Between keys a player interpolates translation,
+//! rotations and scales by themselves. What it shows is compared with the samples that are left out: where one is
+//! missed further than the eye can see, because a body turns fast or its axes of stretch do, the interval is halved by
+//! one of them. Where none is left out the outcome half-way is compared with the natural mean of the two placements of
+//! a body that deforms, and a key put in at that mean.
 
 use super::factors::{GradientFactors, natural_mean};
 use crate::error::RecordError;
-use crate::export::drawing::{Drawing, DrawnBody, Mat3, Vec3};
+use crate::export::drawing::{Drawing, DrawnMotion, Mat3, Vec3};
 use crate::recording::Recording;
 
 /// Keys a second that the eye asks for.
@@ -18,6 +19,12 @@ const SHORT_MOTION: f64 = 300.0;
 const ALL_KEYS: f64 = 2e6;
 /// By how much P may be missed half-way, relative to itself.
 const MISSED: f64 = 1e-3;
+/// By how much P may be missed at samples that are left out, relative to itself.
+const LEFT_OUT: f64 = 1e-2;
+/// Keys of a support in a period of its motion: a straight line misses a circle by half a hundredth of its radius.
+const KEYS_A_PERIOD: f64 = 32.0;
+/// Keys of a support at most: a file of some 60 MB.
+const SUPPORT_KEYS: f64 = 2e6;
 /// How often an interval is halved at most.
 const HALVINGS: usize = 6;
 
@@ -41,6 +48,19 @@ pub(super) struct Track {
     pub positions: Vec<Vec3>,
     /// P; of a rigid body a rotation alone.
     pub factors: Vec<GradientFactors>,
+    /// How many of the keys are samples.
+    pub samples: usize,
+}
+
+/// The track of a body, sample by sample.
+struct Follower {
+    track: Track,
+    /// The last key.
+    last: Option<Pose>,
+    /// The samples since then.
+    way: Vec<Pose>,
+    /// How often an interval without samples may be halved.
+    halvings: usize,
 }
 
 /// The samples that become keys.
@@ -61,18 +81,34 @@ pub(super) fn keys(times: &[f64], bodies: usize) -> Vec<usize> {
     chosen
 }
 
-/// The poses of every body at some rows, in order.
+/// The keys of a support \[s\]: those of the bodies, and as many between as its own motion asks for.
+pub(super) fn carried_keys(motion: &DrawnMotion, times: &[f64]) -> Vec<f64> {
+    let (Some(first), Some(last)) = (times.first(), times.last()) else { return Vec::new() };
+    let spacing = (motion.shortest_period() / KEYS_A_PERIOD).max((last - first) / SUPPORT_KEYS);
+    let mut keys = vec![*first];
+    for pair in times.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        let parts = ((to - from) / spacing).ceil().max(1.0) as usize;
+        for k in 1..=parts {
+            let time = if k == parts { to } else { from + (to - from) * k as f64 / parts as f64 };
+            // A file has times in single precision.
+            if keys.last().is_none_or(|last| time as f32 > *last as f32) {
+                keys.push(time);
+            }
+        }
+    }
+    keys
+}
+
+/// The tracks of all bodies, given the samples that are keys in any case.
 ///
 /// # Errors
-/// Those of reading.
-pub(super) fn poses(recording: &Recording, bodies: usize, rows: &[usize]) -> Result<Vec<Vec<Pose>>, RecordError> {
-    let mut poses = vec![Vec::with_capacity(rows.len()); bodies];
+/// `Corrupt` where det P ≤ 0 or a number is missing; those of reading.
+pub(super) fn tracks(recording: &Recording, drawing: &Drawing, keys: &[usize]) -> Result<Vec<Track>, RecordError> {
+    let bodies = drawing.bodies.len();
+    let mut followers: Vec<Follower> = drawing.bodies.iter().map(|body| Follower::new(body.is_rigid())).collect();
+    let mut due = keys.iter().copied().peekable();
     for chunk in recording.chunks() {
-        let wanted = rows.iter().filter(|row| chunk.contains(row)).map(|row| row - chunk.start);
-        let mut wanted = wanted.peekable();
-        if wanted.peek().is_none() {
-            continue;
-        }
         let times = recording.read_rows("time", chunk.clone())?.data;
         let positions = recording.read_rows("position", chunk.clone())?.data;
         let gradients = recording.read_rows("placement_gradient", chunk.clone())?.data;
@@ -80,67 +116,103 @@ pub(super) fn poses(recording: &Recording, bodies: usize, rows: &[usize]) -> Res
             let reason = format!("`position` and `placement_gradient` are not those of {bodies} bodies");
             return Err(RecordError::corrupt(recording.path(), reason));
         }
-        for row in wanted {
-            for (body, poses) in poses.iter_mut().enumerate() {
+        for (row, sample) in chunk.enumerate() {
+            let is_key = due.next_if_eq(&sample).is_some();
+            for (body, follower) in followers.iter_mut().enumerate() {
                 let place = row * bodies + body;
-                poses.push(Pose {
+                let pose = Pose {
                     time: times[row],
                     position: Vec3::from_column_slice(&positions[3 * place..][..3]),
                     gradient: Mat3::from_row_slice(&gradients[9 * place..][..9]),
-                });
+                };
+                follower.see(pose, is_key).map_err(|time| {
+                    let name = &drawing.bodies[body].name;
+                    let reason = format!("the placement of `{name}` at {time} s is none: det P must be > 0");
+                    RecordError::corrupt(recording.path(), reason)
+                })?;
             }
         }
     }
-    Ok(poses)
-}
-
-/// The tracks of all bodies.
-///
-/// # Errors
-/// `Corrupt` where det P ≤ 0 or a number is missing; those of reading.
-pub(super) fn tracks(recording: &Recording, drawing: &Drawing, rows: &[usize]) -> Result<Vec<Track>, RecordError> {
-    let poses = poses(recording, drawing.bodies.len(), rows)?;
-    let one = |(figure, poses): (&DrawnBody, &Vec<Pose>)| {
-        Track::of(poses, figure.is_rigid()).map_err(|time| {
-            let reason = format!("the placement of `{}` at {time} s is none: det P must be > 0", figure.name);
-            RecordError::corrupt(recording.path(), reason)
-        })
-    };
-    drawing.bodies.iter().zip(&poses).map(one).collect()
+    Ok(followers.into_iter().map(|follower| follower.track).collect())
 }
 
 impl Track {
-    /// Follows the poses of a body; an error is the time at which P is no placement.
+    /// Follows the poses of a body, of which each is a key; an error is the time at which P is no placement.
+    #[cfg(test)]
     pub fn of(poses: &[Pose], is_rigid: bool) -> Result<Self, f64> {
-        let mut track = Self::default();
-        let halvings = if is_rigid { 0 } else { HALVINGS };
-        for pair in poses.first().iter().map(|first| [*first, *first]).chain(poses.windows(2).map(|p| [&p[0], &p[1]])) {
-            if !pair[1].position.iter().all(|x| x.is_finite()) || track.approach(pair[0], pair[1], halvings).is_none() {
-                return Err(pair[1].time);
-            }
-        }
-        Ok(track)
+        Self::thinned(poses, is_rigid, |_| true)
     }
 
-    /// Adds the key `to`, and before it those that the way there needs; none where P is no placement.
-    fn approach(&mut self, from: &Pose, to: &Pose, halvings: usize) -> Option<()> {
-        let last = self.factors.last().copied().unwrap_or(GradientFactors::identity());
+    /// The same with those alone that are said to be keys, and that are needed.
+    #[cfg(test)]
+    pub fn thinned(poses: &[Pose], is_rigid: bool, is_key: impl Fn(usize) -> bool) -> Result<Self, f64> {
+        let mut follower = Follower::new(is_rigid);
+        poses.iter().enumerate().try_for_each(|(k, pose)| follower.see(*pose, is_key(k)))?;
+        Ok(follower.track)
+    }
+}
+
+impl Follower {
+    fn new(is_rigid: bool) -> Self {
+        let halvings = if is_rigid { 0 } else { HALVINGS };
+        Self { track: Track::default(), last: None, way: Vec::new(), halvings }
+    }
+
+    /// Takes the next sample; an error is the time at which P is no placement.
+    fn see(&mut self, pose: Pose, is_key: bool) -> Result<(), f64> {
+        let determinant = pose.gradient.determinant();
+        if !pose.position.iter().all(|x| x.is_finite()) || determinant.is_nan() || determinant <= 0.0 {
+            return Err(pose.time);
+        }
+        self.way.push(pose);
+        if is_key {
+            let way = std::mem::take(&mut self.way);
+            let halvings = self.halvings;
+            self.approach(&way, halvings).ok_or(pose.time)?;
+            (self.way, self.last) = (way, Some(pose));
+            self.way.clear();
+        }
+        Ok(())
+    }
+
+    /// Adds the last sample of a way as a key, and before it those that are needed; none where P is no placement.
+    fn approach(&mut self, way: &[Pose], halvings: usize) -> Option<()> {
+        let (to, left_out) = way.split_last()?;
+        let last = self.track.factors.last().copied().unwrap_or(GradientFactors::identity());
         let next = last.follow(&to.gradient)?;
-        if halvings > 0 && to.time > from.time {
-            let mean = natural_mean(&from.gradient, &to.gradient)?;
-            if (last.half_way(&next).product() - mean).norm() > MISSED * mean.norm() {
-                let middle = Pose {
-                    time: 0.5 * (from.time + to.time),
-                    position: 0.5 * (from.position + to.position),
-                    gradient: mean,
-                };
-                self.approach(from, &middle, halvings - 1)?;
-                return self.approach(&middle, to, halvings - 1);
+        if let Some(from) = self.last.filter(|from| are_apart(from.time, to.time)) {
+            let missed = |sample: &Pose| {
+                let shown = last.between(&next, (sample.time - from.time) / (to.time - from.time)).product();
+                (shown - sample.gradient).norm() > LEFT_OUT * sample.gradient.norm()
+            };
+            let middle = left_out.len() / 2;
+            if left_out.iter().any(missed) {
+                self.approach(&way[..=middle], halvings)?;
+                return self.approach(&way[middle + 1..], halvings);
+            }
+            if left_out.is_empty() && halvings > 0 {
+                let mean = natural_mean(&from.gradient, &to.gradient)?;
+                if (last.half_way(&next).product() - mean).norm() > MISSED * mean.norm() {
+                    let time = 0.5 * (from.time + to.time);
+                    let middle = Pose { time, position: 0.5 * (from.position + to.position), gradient: mean };
+                    self.approach(&[middle], halvings - 1)?;
+                    // It is none that was recorded.
+                    self.track.samples -= 1;
+                    return self.approach(way, halvings - 1);
+                }
             }
         }
-        self.times.push(to.time);
-        self.positions.push(to.position);
-        self.factors.push(next);
+        self.track.times.push(to.time);
+        self.track.positions.push(to.position);
+        self.track.factors.push(next);
+        self.track.samples += 1;
+        self.last = Some(*to);
         Some(())
     }
+}
+
+/// Whether one may stand between two times, which a file has in single precision \[s\].
+fn are_apart(from: f64, to: f64) -> bool {
+    let [from, middle, to] = [from, 0.5 * (from + to), to].map(|time| time as f32);
+    from < middle && middle < to
 }

@@ -1,8 +1,8 @@
 //! The factors of P: exact at every key, near the natural mean between, and never spinning.
 
-use super::factors::{GradientFactors, natural_mean};
-use super::motion::{Pose, Track, keys};
-use crate::export::drawing::{Mat3, Vec3};
+use super::factors::natural_mean;
+use super::motion::{Pose, Track, carried_keys, keys};
+use crate::export::drawing::{DrawnMotion, Mat3, Vec3};
 use nalgebra::Rotation3;
 
 fn rotation(x: f64, y: f64, z: f64) -> Mat3 {
@@ -25,8 +25,7 @@ fn shown(track: &Track, time: f64) -> Mat3 {
     }
     let (a, b) = (&track.factors[after - 1], &track.factors[after]);
     let part = (time - track.times[after - 1]) / (track.times[after] - track.times[after - 1]);
-    let [outer, inner] = [(a.outer, b.outer), (a.inner, b.inner)].map(|(a, b)| a.slerp(&b, part));
-    GradientFactors { outer, stretches: a.stretches.lerp(&b.stretches, part), inner }.product()
+    a.between(b, part).product()
 }
 
 /// Checks a track at its keys, half-way between the poses, and that nothing spins.
@@ -132,4 +131,66 @@ fn keys_are_samples_and_thinned_alike() {
     assert!((280..=301).contains(&keys(&times, 1).len()));
     assert_eq!(keys(&[0.0], 1), [0]);
     assert_eq!(keys(&[], 1), [0_usize; 0]);
+}
+
+/// A sixtieth of a second between keys, a thousandth between samples: what lies between is shown as it was recorded.
+#[test]
+fn what_turns_fast_or_strains_fast_keeps_the_samples_that_it_needs() {
+    let spinning = |t: f64| rotation(0.0, 0.0, 300.0 * t) * rotation(0.3, 0.0, 0.0);
+    let ringing = |t: f64| {
+        rotation(0.0, 40.0 * t, 0.0) * Mat3::from_diagonal(&Vec3::new(1.0, 1.0, (400.0 * t).cos() * 0.2 + 1.0))
+    };
+    let slow = |t: f64| rotation(0.0, 0.0, 2.0 * t);
+    for (name, gradient, is_rigid, least, most) in [
+        ("top", &spinning as &dyn Fn(f64) -> Mat3, true, 110, 500),
+        ("spun disc", &spinning, false, 110, 500),
+        ("ringing", &ringing, false, 300, 1001),
+        ("slow", &slow, true, 60, 62),
+    ] {
+        let poses = poses(1001, gradient);
+        let track = Track::thinned(&poses, is_rigid, |k| k % 17 == 0 || k == 1000).unwrap();
+        let missed = poses.iter().map(|pose| (shown(&track, pose.time) - pose.gradient).norm() / pose.gradient.norm());
+        let missed = missed.fold(0.0, f64::max);
+        println!("{name}: {} keys, {} of them samples, missed by {missed:.1e}", track.times.len(), track.samples);
+        assert!(missed < 1e-2, "{name}: {missed}");
+        assert!((least..=most).contains(&track.samples), "{name}: {}", track.samples);
+    }
+}
+
+/// Axes of stretch that turn by 120° and stay: each key begins at the quaternions of the last.
+#[test]
+fn factors_keep_their_length_however_many_keys_there_are() {
+    let turned = |t: f64| {
+        let angle = (10.0 * t).min(1.2);
+        let axes = rotation(angle, angle, angle);
+        axes * Mat3::from_diagonal(&Vec3::new(1.2, 1.05, 0.9)) * axes.transpose()
+    };
+    let track = check("axes that stay", &poses(1001, turned));
+    let lengths = track.factors.iter().flat_map(|factors| [factors.outer.norm(), factors.inner.norm()]);
+    let off = lengths.map(|length| (length - 1.0).abs()).fold(0.0, f64::max);
+    assert!(off < 1e-15, "{off:e}");
+}
+
+/// A shaker at 59 Hz and a drum at 300 rad/s, whose bodies have 60 keys a second.
+#[test]
+fn supports_have_keys_of_their_own_where_they_move_fast() {
+    let times: Vec<f64> = (0..=60).map(|k| f64::from(k) / 60.0).collect();
+    let motion = |text: &str| serde_json::from_str::<DrawnMotion>(text).unwrap();
+    let shaker =
+        motion(r#"{ "oscillate": { "direction": [0, 0, 1], "amplitude": 0.01, "frequency": 59, "phase": 0 } }"#);
+    let drum = motion(r#"[{ "rotate": { "axis": [0, 1, 0], "point": [0.01, 0, 0], "rate": -300 } }]"#);
+    for (name, motion) in [("shaker", &shaker), ("drum", &drum)] {
+        let keys = carried_keys(motion, &times);
+        assert!(times.iter().all(|time| keys.contains(time)), "{name}");
+        let mut missed = 0.0_f64;
+        for pair in keys.windows(2) {
+            let middle = motion.carried(0.5 * (pair[0] + pair[1])).1;
+            missed = missed.max((middle - 0.5 * (motion.carried(pair[0]).1 + motion.carried(pair[1]).1)).norm());
+        }
+        println!("{name}: {} keys, missed by {missed:.1e} m of 0.01", keys.len());
+        assert!(missed < 1e-4, "{name}: {missed}");
+    }
+    let slow = motion(r#"{ "velocity": [1, 0, 0] }"#);
+    assert_eq!(carried_keys(&slow, &times), times);
+    assert_eq!(carried_keys(&slow, &[]), [0.0; 0]);
 }
