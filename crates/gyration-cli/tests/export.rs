@@ -151,7 +151,7 @@ fn particles_have_the_numbers_of_the_table() {
     for ([count, head, body], row) in frames.iter().zip([0, 25, 50, 60]) {
         let row = &rows[row];
         assert_eq!(*count, "1");
-        assert!(head.starts_with("Properties=species:S:1:id:I:1:pos:R:3:velo:R:3:force:R:3:"), "{head}");
+        assert!(head.starts_with("Properties=type:S:1:id:I:1:pos:R:3:velo:R:3:force:R:3:"), "{head}");
         assert!(head.ends_with(&format!(" Time={:e} pbc=\"F F F\"", row[0])), "{head}");
         let mut words = body.split(' ');
         assert_eq!([words.next(), words.next()], [Some("sphere"), Some("0")]);
@@ -378,4 +378,23 @@ fn what_cannot_be_drawn_is_refused() {
         + "[[body]]\nname = \"p\"\nshape = { sphere = { radius = 1 } }\ndensity = 1\nposition = [0, 0, 2]\n";
     sandbox.write("free.toml", &without);
     sandbox.refused(2, &["plot", "free.toml", "laws"]);
+}
+
+#[test]
+fn an_export_takes_no_name_of_another_format_and_none_of_the_recording() {
+    let sandbox = recorded();
+    for (format, name) in [("gltf", "a.gltf"), ("vtk", "a.vtp"), ("csv", "a.npz"), ("csv", "ball.gyr/zarr.json")] {
+        let said = sandbox.refused(2, &["export", "ball.gyr", "--format", format, "-o", name]);
+        assert!(said.stderr.contains("another format"), "{}", said.stderr);
+    }
+    let before = common::tree(&sandbox.path("ball.gyr"));
+    for name in ["ball.gyr/position/c.0.0.0", "ball.gyr/state/checkpoint"] {
+        let said = sandbox.refused(3, &["export", "ball.gyr", "--format", "csv", "-o", name]);
+        assert!(said.stderr.contains("a part of a recording"), "{}", said.stderr);
+    }
+    assert!(before == common::tree(&sandbox.path("ball.gyr")), "a recording was written over");
+    sandbox.done(&["export", "ball.gyr", "--format", "csv", "-o", "ball.txt"]);
+    let [named, by_itself] = [&["--format", "csv", "-o", "-"][..], &["-o", "-"]]
+        .map(|rest| sandbox.done(&[&["export", "ball.gyr"], rest].concat()).stdout);
+    assert!(named == by_itself && named.starts_with("t,"), "{by_itself}");
 }

@@ -21,7 +21,8 @@ use std::path::{Path, PathBuf};
 /// Writes the export.
 pub fn execute(arguments: &Export) -> Result<u8, CliError> {
     let Export { recording: source, every, pairs, at, output, .. } = arguments;
-    let format = arguments.format.map_or_else(|| by_ending(output.as_deref()), Ok)?;
+    let name = output.as_deref();
+    let format = arguments.format.map_or_else(|| by_name(name), |format| asked(format, name))?;
     if every.is_some() && !matches!(format, ExportFormat::Vtk | ExportFormat::Xyz) {
         return Err(CliError::arguments(
             "--every is for vtk and xyz",
@@ -96,12 +97,32 @@ fn particles(recording: &Recording, every: usize, path: &Path) -> Result<String,
     }
 }
 
-/// The format that the name of a file asks for.
-fn by_ending(output: Option<&Path>) -> Result<ExportFormat, CliError> {
-    let formats = ExportFormat::value_variants();
-    let of_path =
-        |path: &Path| formats.iter().copied().find(|format| path.extension() == Some(ending(*format).as_ref()));
-    output.and_then(of_path).ok_or_else(|| {
+/// Endings of files that are not written here.
+const FOREIGN: [&str; 8] = ["gltf", "vtp", "vtu", "vtk", "svg", "pdf", "json", "parquet"];
+
+/// The format that is asked for, unless the name of the file is that of another one.
+fn asked(format: ExportFormat, output: Option<&Path>) -> Result<ExportFormat, CliError> {
+    let Some(path) = output else { return Ok(format) };
+    let foreign = FOREIGN.iter().any(|end| path.extension() == Some(end.as_ref()));
+    if foreign || ending_of(path).is_some_and(|other| other != format) {
+        let problem = format!("the name {} is that of another format", path.display());
+        return Err(CliError::arguments(problem, format!("let it end in .{}", ending(format))));
+    }
+    Ok(format)
+}
+
+/// The format that a name ends in.
+fn ending_of(path: &Path) -> Option<ExportFormat> {
+    let ends = |format: &ExportFormat| path.extension() == Some(ending(*format).as_ref());
+    ExportFormat::value_variants().iter().copied().find(ends)
+}
+
+/// The format that the name of a file asks for; what goes to stdout is a table.
+fn by_name(output: Option<&Path>) -> Result<ExportFormat, CliError> {
+    if output == Some(Path::new("-")) {
+        return Ok(ExportFormat::Csv);
+    }
+    output.and_then(ending_of).ok_or_else(|| {
         let problem = match output {
             Some(path) => format!("the name {} does not tell a format", path.display()),
             None => "no format is given".to_owned(),
