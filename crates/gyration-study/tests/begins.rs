@@ -55,6 +55,26 @@ fn angle_at_which_a_body_begins_to_slide_is_that_of_the_bound() {
     assert!((found.numbers[0].error.unwrap() / expected - 1.0).abs() < 1e-2);
 }
 
+/// A table far from the origin leaves the gap fewer digits: the slope is found as well as they tell it.
+#[test]
+fn angle_is_found_wherever_the_table_is() {
+    for height in [0.5, 3.7, 100.0, 1000.0] {
+        let text = scene(0.0).replace("plane = {}", &format!("plane = {{ origin = [0, 0, {height:?}] }}"));
+        let text = text.replace("position = [0, 0, 0.1]", &format!("position = [0, 0, {:?}]", height + 0.1));
+        let folder = tempfile::TempDir::new().unwrap();
+        std::fs::write(folder.path().join("block.toml"), text).unwrap();
+        for mu in [0.2_f64, 0.35, 0.9, 1.4] {
+            let wanted = format!("[[slope]]\nbegins = true\nangle = {:?}\ndeviation = 0.01\n", mu.atan());
+            let data = format!("scene = \"block.toml\"\n{MU}start = {:?}\n{wanted}", 1.1 * mu);
+            let found = Calibration::parse("data.toml", &data, folder.path()).unwrap().fit();
+            let found = found.unwrap_or_else(|error| panic!("{height} m, {mu}: {error}"));
+            let off = (found.numbers[0].value / mu - 1.0).abs();
+            println!("{height} m, mu {mu}: off by {off:.1e}");
+            assert!(off < 1e-7, "{height} m, {mu}: {off:e}");
+        }
+    }
+}
+
 #[test]
 fn speeds_below_the_bound_tell_the_strength_of_friction() {
     let text = "[fit.beta]\nkey = \"contact.0.friction.beta\"\nstart = 3e4\n[[slope]]\nangle = [0.1, 0.3]\n";

@@ -40,9 +40,12 @@ pub(super) fn speed(tilted: &Scene, experiment: &Experiment, slope: f64, nearby:
 const FASTEST: f64 = 30.0;
 /// Halvings of that to rounding.
 const BISECTIONS: usize = 70;
-/// More steps than the secant takes, and when it ends.
+/// More steps than the secant takes, and when it ends [rad].
 const MOST_SECANTS: usize = 50;
 const SECANT_ENDS: f64 = 1e-13;
+/// It also ends where it comes no nearer, for want of digits, if it is as near as this [rad]: a support a kilometre off
+/// leaves a gap of a millimetre ten of its digits.
+const SECANT_NEAR: f64 = 1e-7;
 
 impl Calibration {
     /// The slope at which friction holds no more than the weight's part along it.
@@ -60,18 +63,25 @@ impl Calibration {
             Ok(libm::atan(most / (drag.mass * drag.pressing)) - slope)
         };
         let mut before = off(0.0)?;
-        let (mut last, mut here) = (0.0, before);
+        let (mut last, mut here, mut nearest) = (0.0, before, (0.0, before));
         for _ in 0..MOST_SECANTS {
             let now = off(here)?;
             if now.abs() <= SECANT_ENDS {
                 return Ok(here);
             }
-            if now == before {
+            let is_nearer = now.abs() < nearest.1.abs();
+            if now == before || (!is_nearer && nearest.1.abs() <= SECANT_NEAR) {
                 break;
+            }
+            if is_nearer {
+                nearest = (here, now);
             }
             let step = now * (here - last) / (before - now);
             (last, before) = (here, now);
             here += step;
+        }
+        if nearest.1.abs() <= SECANT_NEAR {
+            return Ok(nearest.0);
         }
         Err(format!("no slope is found at which {:?} begins to slide", experiment.body))
     }
