@@ -2,13 +2,14 @@
 //!
 //! A closed surface may have several pieces: bodies side by side, and voids, whose triangles face the other way. The
 //! number of shells around a point, voids counted as −1, is then 0 or 1 everywhere, and the volume is the sum of
-//! theirs. It is not where shells cross, where one lies within another of the same sense, and where a void is in
+//! theirs. It is not where shells cross one another or themselves, where one lies within another of the same sense, and where a void is in
 //! nothing.
 //!
 //!   w(x) = (1/4π) Σ solid angles of the triangles,   tan(Ω/2) = a·(b×c)/(abc + (a·b)c + (b·c)a + (c·a)b)
 //!
 //! Source of the solid angle: van Oosterom and Strackee 1983.
 
+use gyration::neighbours::{Bounds, BoxTree};
 use gyration::shape::Polyhedron;
 use gyration::tensor::Vec3;
 use std::f64::consts::PI;
@@ -28,7 +29,7 @@ const MOST_TOLD: usize = 4;
 /// Shells of a mesh that count space more than once, or as less than none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shells {
-    /// Which two, from 1 in the order of the file; the same twice for a void in nothing.
+    /// Which two, from 1 in the order of the file; the same twice for one that is so by itself.
     pub which: [usize; 2],
     /// How they stand to each other.
     pub kind: ShellFault,
@@ -45,7 +46,7 @@ pub struct Shells {
 /// How two shells stand to each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ShellFault {
-    /// Their surfaces cross.
+    /// Their surfaces cross; that of one shell itself.
     Crossing,
     /// The second lies within the first and faces the same way.
     Within,
@@ -57,6 +58,7 @@ impl fmt::Display for Shells {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [one, other] = self.which;
         match self.kind {
+            ShellFault::Crossing if one == other => write!(f, "its shell {one} crosses itself")?,
             ShellFault::Crossing => write!(f, "its shells {one} and {other} cross")?,
             ShellFault::Within => write!(f, "shell {other} lies within shell {one} and faces the same way")?,
             ShellFault::VoidInNothing => write!(f, "shell {one} is turned inside out")?,
@@ -64,6 +66,7 @@ impl fmt::Display for Shells {
         let [x, y, z] = self.place.into();
         write!(f, " near [{x:.6}, {y:.6}, {z:.6}] m; its volume counts as {:.6e} m³, ", self.sum)?;
         match self.union {
+            None if one == other => write!(f, "each place as often as the surface is wound about it"),
             Some(union) => write!(f, "and what it encloses is {union:.6e} m³"),
             None => {
                 let own: Vec<String> = self.own.iter().take(MOST_TOLD).map(|volume| format!("{volume:.6e}")).collect();
@@ -86,15 +89,17 @@ struct Shell<'a> {
 /// The first two shells of a closed mesh that count space more than once; none where there are none.
 pub fn doubly_enclosed(mesh: &Polyhedron) -> Option<Shells> {
     let shells = Shell::all(mesh);
-    if shells.len() < 2 {
-        return None;
-    }
     let own: Vec<f64> = shells.iter().map(|shell| shell.volume).collect();
     let sum: f64 = own.iter().sum();
     let told = |which: [usize; 2], kind, place, union| {
         Some(Shells { which: which.map(|k| k + 1), kind, place, sum, union, own: own.clone() })
     };
     let looked_at = &shells[..shells.len().min(MOST_SHELLS)];
+    for (own, shell) in looked_at.iter().enumerate() {
+        if let Some(place) = shell.crosses_itself() {
+            return told([own; 2], ShellFault::Crossing, place, None);
+        }
+    }
     // For each shell those around it.
     let mut around: Vec<Vec<usize>> = vec![Vec::new(); looked_at.len()];
     for (second, inner) in looked_at.iter().enumerate() {
@@ -169,6 +174,19 @@ impl<'a> Shell<'a> {
     /// Whether the boxes around two shells have space in common.
     fn may_meet(&self, other: &Self) -> bool {
         (0..3).all(|axis| self.least[axis] < other.most[axis] && other.least[axis] < self.most[axis])
+    }
+
+    /// A place where an edge of the surface passes through a triangle of it.
+    fn crosses_itself(&self) -> Option<Vec3> {
+        let corners: Vec<[Vec3; 3]> = self.triangles.iter().map(|triangle| self.mesh.corners(triangle)).collect();
+        let boxes = || corners.iter().map(|[a, b, c]| bounds(a).with(&bounds(b)).with(&bounds(c)));
+        let tree = BoxTree::new(boxes().zip(0..));
+        let size = self.size();
+        boxes().zip(&corners).find_map(|(bounds, one)| {
+            // In no order: the place of the first in that of the file is told.
+            let through = tree.touching(&bounds).filter_map(|other| Some((other, passes(one, &corners[other], size)?)));
+            through.min_by_key(|(other, _)| *other).map(|(_, place)| place)
+        })
     }
 
     /// A place where the surfaces cross: where an edge passes through a triangle, or where some of the other shell is
@@ -248,6 +266,11 @@ fn root(parents: &mut [usize], mut corner: usize) -> usize {
         corner = parents[corner];
     }
     corner
+}
+
+/// The box of a point.
+fn bounds(point: &Vec3) -> Bounds {
+    Bounds::about(point, 0.0)
 }
 
 /// Whether the extents of two triangles along every axis have a place in common.

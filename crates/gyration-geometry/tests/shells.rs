@@ -66,3 +66,22 @@ fn a_shell_within_another_of_the_same_sense_is_told_with_the_volume_of_both() {
     let found = fault(&[(-1.0, [2.0; 3], [2.5; 3])]).unwrap();
     assert_eq!((found.which, found.kind), ([2, 2], ShellFault::VoidInNothing));
 }
+
+/// A cube whose top is pushed down through its bottom: closed, and each edge of two faces, but inside out below.
+#[test]
+fn a_shell_that_crosses_itself_is_told() {
+    let mut mesh = boxes(&[UNIT]);
+    // A pyramid in the place of the top, whose tip hangs below the bottom.
+    let top = [4, 5, 7, 6];
+    mesh.triangles.retain(|triangle| !triangle.iter().all(|corner| top.contains(corner)));
+    let tip = mesh.vertices.len();
+    mesh.vertices.push(Vec3::new(0.45, 0.55, -0.5));
+    mesh.triangles.extend((0..4).map(|k| [top[k], top[(k + 1) % 4], tip]));
+    let found = doubly_enclosed(&mesh).unwrap();
+    assert_eq!((found.which, found.kind, found.union), ([1, 1], ShellFault::Crossing, None));
+    assert!(found.place.z.abs() < 1e-12, "where it leaves through the bottom: {}", found.place);
+    assert!(found.to_string().contains("shell 1 crosses itself near ["), "{found}");
+    // The tip above the bottom.
+    mesh.vertices[tip].z = 0.2;
+    assert_eq!(doubly_enclosed(&mesh), None);
+}

@@ -103,6 +103,31 @@ fn a_reach_within_the_gaps_of_turning_is_warned_of() {
     let [short] = &told("0.005", 0.0)[..] else { panic!("one warning") };
     assert!(short.contains("d0 is 0.001 m"), "{short}");
     assert!(told("0.011", 0.0).is_empty());
+    // So slow that they turn back farther out than any gap that is tried, and in the fourteenth contact of a scene.
+    for speed in [1e-8, 1e-12] {
+        let [short] = &told("0.05", speed)[..] else { panic!("{speed}: {:?}", told("0.05", speed)) };
+        assert!(short.contains("they turn back at a gap of about"), "{short}");
+    }
+    let names: Vec<String> = (0..15).map(|k| format!("b{k}")).collect();
+    let bodies: String = names.iter().zip(0..).map(|(name, k)| ball(name, 0.02, &at(f64::from(k)))).collect();
+    let reach = |k: usize| if k == 13 { "reach = 1e-6" } else { "reach = 0.5" };
+    let contacts: String = (0..14).map(|k| between(&names[k], &names[k + 1], reach(k))).collect();
+    let warnings = remarks(&format!("{HEAD}{bodies}{contacts}")).warnings;
+    assert!(matches!(&warnings[..], [short] if short.contains("\"b13\" and \"b14\" is short")), "{warnings:?}");
+}
+
+#[test]
+fn a_feedback_on_the_gap_tells_that_supports_with_a_shape_are_not_felt() {
+    let feedback = "feedback = { measure = \"support_gap\", gain = [[0, 0, 0], [0, 0, 0], [0, 0, 10]] }";
+    let body = format!(
+        "[[body]]\nname = \"c\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\ndensity = 1000\ncontractile = {{ material = \
+         {{ neo_hookean = {{ shear = 1e4 }} }}, contraction_viscosity = 100, {feedback} }}\n"
+    );
+    let plane = "[[support]]\nname = \"wall\"\nplane = { origin = [0, 0, -10] }\n";
+    let ball = "[[support]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\nposition = [0, 0, -0.3]\n";
+    let told =
+        |text: &str| remarks(&format!("{HEAD}{text}")).notes.iter().any(|note| note.contains("feels planes alone"));
+    assert!(told(&format!("{plane}{ball}{body}")) && !told(&format!("{plane}{body}")));
 }
 
 /// Symptom: a third body at 1 km/s made the reach of two slow ones shorter than the gap at which they turn back, and

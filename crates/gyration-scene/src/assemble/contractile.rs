@@ -219,7 +219,7 @@ fn measure(
             if context.has_support {
                 return Some(FeedbackMeasure::SupportGap);
             }
-            let help = "add a [[support]], or let the body feel a `stretch` or a `rate`";
+            let help = "add a [[support]] with a `plane`, or let the body feel a `stretch` or a `rate`";
             reporter.note(key, "there is no support that is a plane, which the body could be near", help);
             None
         }

@@ -1,4 +1,4 @@
-//! Meshes whose shells enclose the same space more than once.
+//! Meshes whose shells enclose the same space more than once, or less than once.
 
 use gyration::model::Model;
 use gyration::shape::{Polyhedron, Shape};
@@ -45,5 +45,5 @@ fn collect<'a>(shape: &'a Shape, meshes: &mut Vec<&'a Polyhedron>) {
 }
 
 fn in_words(body: &str, shells: &Shells) -> String {
-    format!("the mesh of \"{body}\" counts space more than once: {shells}")
+    format!("the mesh of \"{body}\" counts space more than once, or less: {shells}")
 }

@@ -56,6 +56,7 @@ impl Remarks {
         strangers::remark(model, start, &mut remarks);
         remarks.notes.extend(plates::notes(model, start));
         remarks.notes.extend(untouched::notes(model));
+        remarks.notes.extend(untouched::unfelt(model));
         remarks.notes.extend(turning::notes(model));
         remarks.notes.extend(begun::notes(model, start));
         remarks.notes.extend(reaches::notes(model));

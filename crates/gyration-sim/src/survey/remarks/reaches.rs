@@ -10,8 +10,8 @@ use gyration::state::State;
 
 /// In so many gaps, or d₀, a law falls to what may be left out.
 const LEAST: f64 = 10.0;
-/// Contacts that are looked at.
-const MOST_CONTACTS: usize = 12;
+/// Contacts that are told of.
+const MOST_TOLD: usize = 12;
 /// A gap that a reach found from it makes smaller by more than that part is another.
 const MOST_CHANGE: f64 = 1e-2;
 /// The same of slow bodies, which turn back farther out: of many there are always some.
@@ -21,8 +21,7 @@ const MOST_PAIRS: usize = 10_000;
 
 /// What must be told of the reaches of a model.
 pub(super) fn warnings(model: &Model, start: &State) -> Vec<String> {
-    let rules = (0..model.rules().all().len()).take(MOST_CONTACTS);
-    rules.filter_map(|rule| warning(model, start, rule)).collect()
+    (0..model.rules().all().len()).filter_map(|rule| warning(model, start, rule)).take(MOST_TOLD).collect()
 }
 
 /// Pairs of a contact from which on it costs that none is too far to be looked at.
@@ -30,7 +29,7 @@ const MANY_PAIRS: usize = 20;
 
 /// What must be told of contacts of many bodies without a reach.
 pub(super) fn notes(model: &Model) -> Vec<String> {
-    let rules = model.rules().all().iter().enumerate().take(MOST_CONTACTS);
+    let rules = model.rules().all().iter().enumerate();
     let without = rules.filter(|(_, rule)| rule.reach.is_none() && model.images().is_none()).map(|(rule, _)| rule);
     let many = without.filter(|rule| Joined::of_rule(model, *rule).nth(MANY_PAIRS).is_some());
     let note = |rule: usize| {
@@ -40,7 +39,7 @@ pub(super) fn notes(model: &Model) -> Vec<String> {
              its bodies share their steps; `reach = \"auto\"` leaves out what is beyond some 25 gaps"
         ))
     };
-    many.filter_map(note).collect()
+    many.filter_map(note).take(MOST_TOLD).collect()
 }
 
 fn warning(model: &Model, start: &State, rule: usize) -> Option<String> {

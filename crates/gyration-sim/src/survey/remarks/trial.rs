@@ -85,7 +85,8 @@ impl<'a> TrialPair<'a> {
         Some(self.gap().map_or(turning, |gap| gap.min(turning)))
     }
 
-    /// The gap at which the two turn back [m]; none where nothing brings them together.
+    /// The gap at which the two turn back [m], the largest that is tried if it is none of those; none where nothing
+    /// brings them together.
     pub fn turning_gap(&self) -> Option<f64> {
         let [one, other] = &self.motions;
         let normal = (one.placement.position - other.placement.position).try_normalize(0.0)?;
@@ -98,8 +99,10 @@ impl<'a> TrialPair<'a> {
         }
         let falling = weight / (self.form.laws.repulsion.exponent - 1.0);
         let balance = |gap: f64| Some(self.stored_at(gap, &normal)? - kinetic - falling * gap);
-        let trials = TrialGaps::between(TRIED.0 * self.size(), TRIED.1 * self.size());
-        trials.root_of_falling(balance).first().copied()
+        let [closest, farthest] = [TRIED.0, TRIED.1].map(|part| part * self.size());
+        let found = TrialGaps::between(closest, farthest).root_of_falling(balance).first().copied();
+        // Bodies that are slow beside what a repulsion still stores there turn back farther out.
+        found.or_else(|| (balance(farthest)? > 0.0).then_some(farthest))
     }
 }
 

@@ -1,6 +1,8 @@
-//! Supports that no contact or joint names: bodies fall through them.
+//! Supports that no contact or joint names: bodies fall through them; supports with a shape that a body which answers
+//! to its gap does not feel.
 
 use gyration::Party;
+use gyration::contractile::{ContractionSource, FeedbackMeasure};
 use gyration::load::Interaction as _;
 use gyration::model::Model;
 
@@ -20,4 +22,21 @@ pub(super) fn notes(model: &Model) -> Vec<String> {
     let note =
         |name: &str| format!("nothing touches the support \"{name}\": no contact names it, and bodies go through it");
     untouched.map(|party| note(model.party_name(party))).collect()
+}
+
+/// What must be told of feedbacks on the gap: it is that to planes.
+pub(super) fn unfelt(model: &Model) -> Option<String> {
+    let solid = model.solid_supports.first()?;
+    let answers = |body: &usize| {
+        let source = model.bodies[*body].contraction().map(|contraction| &contraction.source);
+        let Some(ContractionSource::Driven { feedback, .. }) = source else { return false };
+        feedback.iter().any(|part| part.measure == FeedbackMeasure::SupportGap)
+    };
+    let body = (0..model.bodies.len()).find(answers)?;
+    Some(format!(
+        "the feedback of \"{}\" on its gap feels planes alone: \"{}\" is a support with a shape, and changes nothing \
+         of it",
+        model.name(body),
+        solid.name
+    ))
 }
