@@ -1,10 +1,11 @@
 //! Wavefront OBJ: the lines `v x y z` and `f i j k …`; all others are ignored.
 //!
-//! An index counts from 1, or from the end if negative; what follows a slash (texture, normal) is ignored. Groups and
+//! A line that ends in a backslash goes on in the next. An index counts from 1, or from the end if negative; what follows a slash (texture, normal) is ignored. Groups and
 //! objects of a file form one surface.
 
 use gyration::shape::Polyhedron;
 use gyration::tensor::Vec3;
+use std::borrow::Cow;
 
 use crate::fault::{FileFault, FilePlace, Trouble, coordinate};
 use crate::polygon::add_polygon;
@@ -13,8 +14,16 @@ use crate::polygon::add_polygon;
 pub(crate) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
     let mut mesh = Polyhedron::default();
     let mut corners = Vec::new();
-    for (index, line) in String::from_utf8_lossy(bytes).lines().enumerate() {
+    let text = String::from_utf8_lossy(bytes);
+    let mut lines = text.trim_start_matches('\u{feff}').lines().enumerate();
+    while let Some((index, line)) = lines.next() {
         let place = FilePlace::Line(index + 1);
+        let mut line = Cow::Borrowed(line);
+        // A line that ends in a backslash goes on in the next.
+        while let Some(begun) = line.trim_end().strip_suffix('\\') {
+            let rest = lines.next().map_or("", |(_, rest)| rest);
+            line = Cow::Owned(format!("{begun} {rest}"));
+        }
         let mut words = line.split_whitespace();
         match words.next() {
             Some("v") => {

@@ -190,6 +190,19 @@ fn text_keeps_double_precision() {
 }
 
 #[test]
+fn an_obj_of_other_editors_is_read() {
+    let text = obj(&quads());
+    let marked = format!("\u{feff}{text}");
+    assert_is_unit_cube("a.obj", &Folder::new().read("a.obj", marked).unwrap());
+    // Each line of a face in two, the second with blanks before it.
+    let continued: Vec<String> = text
+        .lines()
+        .map(|line| if line.starts_with('f') { line.replacen(' ', " \\\r\n   ", 2) } else { line.to_owned() })
+        .collect();
+    assert_is_unit_cube("a.obj", &Folder::new().read("a.obj", continued.join("\n")).unwrap());
+}
+
+#[test]
 fn relative_indices_of_obj_count_from_the_end() {
     let folder = Folder::new();
     let faces: String = quads()

@@ -187,7 +187,8 @@ fn escape(text: &str) -> String {
             '>' => escaped += "&gt;",
             '"' => escaped += "&quot;",
             '\t' | '\n' => escaped.push(' '),
-            letter if letter.is_control() => {}
+            // No characters of XML.
+            letter if letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}') => {}
             letter => escaped.push(letter),
         }
     }
@@ -206,7 +207,7 @@ mod tests {
 
     #[test]
     fn titles_cannot_break_the_markup() {
-        let drawing = Page::new(10.0, 10.0, "a <b> & \"c\"\u{1}");
+        let drawing = Page::new(10.0, 10.0, "a <b> & \"c\"\u{1}\u{ffff}");
         let svg = render(&drawing);
         assert!(svg.contains("<title>a &lt;b&gt; &amp; &quot;c&quot;</title>"));
     }

@@ -22,6 +22,9 @@ const VIOLENT: f64 = 30.0;
 /// Bodies times samples at which forces are computed again: some seconds.
 const MOST_COMPUTED: usize = 40_000;
 
+/// Why there is nothing to draw.
+pub const NO_FORCES: &str = "no contact exerts a force on a body at any of its samples";
+
 /// The forces on the bodies that are touched.
 struct Forces {
     bodies: Vec<usize>,
@@ -42,7 +45,7 @@ pub fn chart(recorded: &RecordedScene) -> Result<Chart, PlotError> {
     };
     let most = largest(&forces.normal).max(largest(&forces.tangential));
     if most == 0.0 || !most.is_finite() {
-        return Err(PlotError::Nothing { what: "forces", reason: "neither a support nor another body acts on a body" });
+        return Err(PlotError::Nothing { what: "forces", reason: NO_FORCES });
     }
     let x = time_axis(recorded)?;
     let weight = heaviest(recorded, &forces.bodies, &normal.unwrap_or_else(|| recorded.up()));

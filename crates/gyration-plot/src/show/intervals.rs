@@ -4,7 +4,7 @@
 //!   mean |∫ f dt|/Δt, peak max |f| over each interval
 
 use super::bodies::{body_series, drawn_bodies, time_axis};
-use super::forces::{force_axis, heaviest};
+use super::forces::{NO_FORCES, force_axis, heaviest};
 use crate::chart::{Chart, DASHED, Series, extremes};
 use crate::draw::Point;
 use crate::error::PlotError;
@@ -33,7 +33,7 @@ pub fn chart(recorded: &RecordedScene) -> Result<Option<Chart>, PlotError> {
     let most =
         extremes(series.iter().flat_map(|line| &line.points).map(|point| point[1])).map_or(0.0, |(_, high)| high);
     if most == 0.0 {
-        return Err(PlotError::Nothing { what: "forces", reason: "neither a support nor another body acts on a body" });
+        return Err(PlotError::Nothing { what: "forces", reason: NO_FORCES });
     }
     let (x, weight) = (time_axis(recorded)?, heaviest(recorded, &intervals.bodies, &recorded.up()));
     if weight > 0.0 && intervals.bodies.len() == 1 {

@@ -29,7 +29,12 @@ pub fn charts(recorded: &RecordedScene, names: &[String]) -> Result<Vec<Chart>, 
         let measures = match names {
             [across, upwards] => [BodyNumber::named(recorded, across)?, BodyNumber::named(recorded, upwards)?],
             [] => default_measures(recorded, *body)?,
-            _ => return Err(PlotError::Measure { name: names.join(",") }),
+            _ => {
+                return Err(PlotError::Arguments {
+                    problem: format!("a stroke is drawn by two measures, and {} are given", names.len()),
+                    fix: "write two with a comma between them, `--measures G_xz,G_zz`, or none".to_owned(),
+                });
+            }
         };
         charts.push(MeasurePlane { recorded, body: *body, measures }.chart()?);
     }
