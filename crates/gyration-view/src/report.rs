@@ -22,6 +22,9 @@ const DISPENSABLE: [&str; 5] =
 /// How hard to compress, of 10: more takes longer and gains next to nothing on such numbers.
 const LEVEL: u8 = 6;
 
+/// Arrays of what happens between samples.
+const INTERVALS: [&str; 2] = ["impulse", "peak_force"];
+
 /// A report.
 #[derive(Debug, Clone)]
 pub struct Report {
@@ -56,6 +59,7 @@ pub fn report(stored: &Stored) -> Result<Report, ViewError> {
                 "To keep the file small, {} of {rows} samples are shown, one in {every}; the recording has all.",
                 header.rows
             ));
+            header.notes.extend(of_intervals(&header));
         }
         // What thinning cannot make smaller, a mesh of many triangles, is not paid for in samples beyond a quarter.
         let fixed = described(stored, &header)?;
@@ -67,6 +71,12 @@ pub fn report(stored: &Stored) -> Result<Report, ViewError> {
         }
         every = (every * data.len()).div_ceil(room).max(every + 1);
     }
+}
+
+/// What must be told of arrays of intervals where samples are left out.
+fn of_intervals(header: &Header) -> Option<String> {
+    let told = INTERVALS.iter().find(|name| header.arrays.iter().any(|array| array.name == **name))?;
+    Some(format!("`{told}` of a sample goes back to the sample before it in the recording, shown or not."))
 }
 
 /// Whether the data fit if they take as little as they can.
