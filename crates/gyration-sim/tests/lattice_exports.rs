@@ -10,6 +10,11 @@ use gyration_sim::{Job, Unwatched};
 /// A recorded sheet, or crystal, of points on springs, drifting; its frames of particles, each split at its ends of
 /// lines, and the places of the bodies at each sample.
 fn frames(lattice: &str) -> (Vec<Vec<String>>, Vec<Vec<Vec3>>) {
+    frames_of(lattice, ("", ""))
+}
+
+/// The same with other words in the scene.
+fn frames_of(lattice: &str, (old, new): (&str, &str)) -> (Vec<Vec<String>>, Vec<Vec<Vec3>>) {
     let text = format!(
         r#"
         world = {{ gravity = [0, 0, 0] }}
@@ -28,6 +33,7 @@ fn frames(lattice: &str) -> (Vec<Vec<String>>, Vec<Vec<Vec3>>) {
         rest_length = 0.2
         "#
     );
+    let text = text.replace(old, new);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("lattice.gyr");
     Job::of(&parsed(&text, &[]), &provenance()).record(&path, &mut Unwatched).unwrap();
@@ -89,6 +95,14 @@ fn a_frame_is_as_wide_as_its_bodies_where_nothing_repeats_itself() {
             assert!((edge - (high - low + 0.04)).abs() < 1e-14, "{axis}: {edges:?}");
         }
     }
+    // Points in a plane.
+    let points = (
+        "shape = { sphere = { radius = 0.02 } }\n        density = 1000",
+        "shape = { points = [{ mass = 1, at = [0, 0, 0] }] }",
+    );
+    let (frames, places) = frames_of(&sheet.replace("[true, false]", "true"), points);
+    let edges = numbers(quoted(&frames[2][1], "Lattice"));
+    assert_eq!((edges[8], numbers(quoted(&frames[2][1], "Origin"))[2]), (1.0, places[2][0].z - 0.5));
     let (frames, _) = self::frames(&sheet.replace("[true, false]", "false"));
     assert!(frames.iter().all(|frame| frame[1].ends_with("pbc=\"F F F\"")), "{}", frames[0][1]);
 }

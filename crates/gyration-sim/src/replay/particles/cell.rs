@@ -35,11 +35,14 @@ impl FrameCell {
         }
         let (mut edges, mut origin) = (along, Vec3::zeros());
         for a in 0..3 {
-            if !periodic[a] {
-                origin += low[a] * along.column(a);
-            }
-            let times = if periodic[a] { f64::from(cells.repeat[a]) } else { high[a] - low[a] };
-            edges.set_column(a, &(times * along.column(a)));
+            let (from, wide) = match high[a] - low[a] {
+                _ if periodic[a] => (0.0, f64::from(cells.repeat[a])),
+                // Points in a plane, or on a line, fill no cell: it is one unit wide about them.
+                0.0 => (low[a] - 0.5, 1.0),
+                wide => (low[a], wide),
+            };
+            origin += from * along.column(a);
+            edges.set_column(a, &(wide * along.column(a)));
         }
         Some(Self { edges, origin, periodic })
     }
@@ -47,7 +50,8 @@ impl FrameCell {
 
 impl fmt::Display for FrameCell {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let joined = |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
+        // Without the sign of zero.
+        let joined = |numbers: &[f64]| numbers.iter().map(|x| (x + 0.0).to_string()).collect::<Vec<_>>().join(" ");
         let periodic = self.periodic.map(|periodic| if periodic { "T" } else { "F" }).join(" ");
         let (edges, origin) = (joined(self.edges.as_slice()), joined(self.origin.as_slice()));
         write!(f, "Lattice=\"{edges}\" Origin=\"{origin}\" pbc=\"{periodic}\"")
