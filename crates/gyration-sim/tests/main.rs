@@ -31,6 +31,7 @@ mod network;
 mod own_forces;
 mod partings;
 mod pressed;
+mod presses;
 mod random;
 mod random_scenes;
 mod ranks;

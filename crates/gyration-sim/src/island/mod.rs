@@ -21,6 +21,7 @@ mod paths;
 mod peak_forces;
 mod plane_approach;
 pub(crate) mod pool;
+mod presses;
 mod restart_point;
 mod rollback;
 pub(crate) mod step_end;
@@ -353,6 +354,7 @@ impl Island {
         self.check_frictions(report.end)?;
         self.check_half_turns(&report)?;
         self.check_linkages(&report)?;
+        self.check_presses(&report, plan.end)?;
         if self.system.may_be_given_up() {
             // Gaps and forces at its end are not all known.
             return Err(Stop::by_interruption(time));
