@@ -106,6 +106,7 @@ fn cross(o: Point, a: Point, b: Point) -> f64 {
 /// The convex hull, counterclockwise: Andrew's monotone chain.
 pub fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
     points.retain(|point| point.iter().all(|c| c.is_finite()));
+    leave_out_inner(&mut points);
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();
     if points.len() < 3 {
@@ -127,6 +128,33 @@ pub fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
     let mut hull = half(&mut points.iter());
     hull.extend(half(&mut points.iter().rev()));
     hull
+}
+
+/// Points from which on most are looked for inside before all are sorted.
+const MANY: usize = 32;
+
+/// Leaves out points within the octagon of those that are outermost along eight directions: none is a corner of the
+/// hull. Source: Akl and Toussaint, *A fast convex hull algorithm*, Inf. Process. Lett. 7 (1978).
+fn leave_out_inner(points: &mut Vec<Point>) {
+    if points.len() < MANY {
+        return;
+    }
+    // Counterclockwise.
+    let directions =
+        [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [-1.0, 1.0], [-1.0, 0.0], [-1.0, -1.0], [0.0, -1.0], [1.0, -1.0]];
+    let along = |direction: &Point, point: &Point| direction[0] * point[0] + direction[1] * point[1];
+    let mut outermost = [points[0]; 8];
+    for point in points.iter() {
+        for (direction, outermost) in directions.iter().zip(&mut outermost) {
+            if along(direction, point) > along(direction, outermost) {
+                *outermost = *point;
+            }
+        }
+    }
+    let sides: Vec<[Point; 2]> =
+        (0..8).map(|k| [outermost[k], outermost[(k + 1) % 8]]).filter(|[a, b]| a != b).collect();
+    // All at one place have no sides.
+    points.retain(|point| sides.is_empty() || sides.iter().any(|[a, b]| cross(*a, *b, *point) <= 0.0));
 }
 
 /// The inside of a convex outline: of each side, a point and the unit normal inward.
@@ -207,6 +235,28 @@ mod tests {
         let inside = Inside::of(&hull);
         assert!((inside.distance([0.5, 0.25]) - 0.25).abs() < 1e-15);
         assert!(inside.distance([2.0, 0.5]) < 0.0);
+    }
+
+    #[test]
+    fn hulls_of_many_points_are_those_of_all() {
+        // A spiral, points along lines, and many at one place.
+        let spiral = (0..400).map(|k| f64::from(k)).map(|k| [k * libm::cos(2.4 * k), 0.3 * k * libm::sin(2.4 * k)]);
+        let grid = (0..100).map(|k| [f64::from(k % 10), f64::from(k / 10)]);
+        let line = (0..50).map(|k| [f64::from(k), 2.0 * f64::from(k)]);
+        let place = (0..50).map(|_| [0.5, -0.5]);
+        for points in [spiral.collect::<Vec<Point>>(), grid.collect(), line.collect(), place.collect()] {
+            let hull = convex_hull(points.clone());
+            let outside = |point: &Point| {
+                let sides = hull.iter().zip(hull.iter().cycle().skip(1));
+                sides.map(|(a, b)| cross(*a, *b, *point)).fold(f64::INFINITY, f64::min) < -1e-9
+            };
+            assert!(hull.len() < 3 || !points.iter().any(outside), "{hull:?}");
+            // The same as of halves that are few enough to be sorted as they are.
+            let parts = points.chunks(MANY - 1).flat_map(|part| convex_hull(part.to_vec())).collect::<Vec<Point>>();
+            let few = parts.chunks(MANY - 1).flat_map(|part| convex_hull(part.to_vec())).collect::<Vec<Point>>();
+            assert_eq!(convex_hull(few), hull);
+        }
+        assert_eq!(convex_hull((0..100).map(|k| [f64::from(k % 10), f64::from(k / 10)]).collect()).len(), 4);
     }
 
     #[test]
