@@ -11,7 +11,7 @@ use crate::array::{ArrayInfo, DataType};
 use crate::error::RecordError;
 use crate::layout::{BOUNDARY, ENTRY, Layout, Ragged, RaggedArray, START};
 use crate::names::{METADATA, is_column, is_name, is_path, is_word};
-use crate::zarr::{Marker, ZarrGroup, array_of, group_json};
+use crate::zarr::{Marker, ZarrGroup, array_of, group_head, group_tail};
 use gyration_files::check;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -86,11 +86,16 @@ impl Group {
         }
     }
 
-    /// The group's `zarr.json`.
-    pub(crate) fn to_json(&self) -> Vec<u8> {
+    /// The group's `zarr.json` up to the end of its attributes, without its checksum.
+    pub(crate) fn head(&self) -> Vec<u8> {
         let place = Value::from(check::UNKNOWN);
         let attributes = self.attributes.iter().map(|(name, value)| (name.as_str(), value));
-        let mut text = group_json(attributes.chain([(CHECKSUM, &place)]), &self.arrays, self.ragged());
+        group_head(attributes.chain([(CHECKSUM, &place)]))
+    }
+
+    /// The group's `zarr.json`, given its head.
+    pub(crate) fn to_json(&self, head: &[u8]) -> Vec<u8> {
+        let mut text = [head, &group_tail(&self.arrays, self.ragged())].concat();
         check::seal(&mut text, CHECKSUM_PLACE);
         text
     }

@@ -41,6 +41,8 @@ pub struct Writer {
     row_len: usize,
     /// Bytes of the row being appended.
     row: Vec<u8>,
+    /// The metadata up to the end of the attributes, until one is set: of a crowd most of the file.
+    head: Option<Vec<u8>>,
     /// Whether the metadata on disk are behind `group`.
     stale: bool,
     /// An operation failed: what is in memory no longer says what is on disk.
@@ -159,6 +161,7 @@ impl Writer {
             row_len: growing.map(ArrayInfo::row_len).sum::<usize>() - 1,
             row: Vec::new(),
             group,
+            head: None,
             stale: true,
             failed: false,
             _lock: lock,
@@ -289,6 +292,7 @@ impl Writer {
     /// `Layout` if a name is reserved.
     pub fn patch_attributes(&mut self, patch: Attributes) -> Result<(), RecordError> {
         self.stale = true;
+        self.head = None;
         self.group.patch(patch)
     }
 
@@ -340,7 +344,8 @@ impl Writer {
         let texts = texts.chain(subgroup).collect::<Vec<_>>();
         let files = texts.iter().map(|(path, text)| (path.clone(), text.as_slice())).collect::<Vec<_>>();
         self.disk.replace_lazily(&files)?;
-        self.disk.replace(&[(self.directory.join(METADATA), &self.group.to_json())])?;
+        let head = self.head.get_or_insert_with(|| self.group.head());
+        self.disk.replace(&[(self.directory.join(METADATA), &self.group.to_json(head))])?;
         self.stale = false;
         Ok(())
     }

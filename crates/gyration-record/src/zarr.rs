@@ -16,19 +16,25 @@ pub(crate) fn array_json(array: &ArrayInfo) -> Vec<u8> {
     json(&ZarrArray::of(array))
 }
 
-/// The `zarr.json` of a whole recording: attributes in alphabetical order, whatever order they were set in.
-pub(crate) fn group_json<'a>(
-    attributes: impl Iterator<Item = (&'a str, &'a Value)>,
-    arrays: &[ArrayInfo],
-    subgroup: Option<&str>,
-) -> Vec<u8> {
+/// What a group's file ends with.
+const END: &str = "\n}\n";
+
+/// The `zarr.json` of a whole recording up to the end of its attributes, which stand in alphabetical order, whatever
+/// order they were set in.
+pub(crate) fn group_head<'a>(attributes: impl Iterator<Item = (&'a str, &'a Value)>) -> Vec<u8> {
+    let mut text = json(&ZarrGroup::<_, ()> { attributes: attributes.collect(), ..ZarrGroup::empty() });
+    text.truncate(text.len() - END.len());
+    text
+}
+
+/// What follows them: the metadata of the arrays.
+pub(crate) fn group_tail(arrays: &[ArrayInfo], subgroup: Option<&str>) -> Vec<u8> {
     let arrays = arrays.iter().map(|array| (array.name.clone(), Node::Array(Box::new(ZarrArray::of(array)))));
     let subgroup = subgroup.map(|name| (name.to_owned(), Node::Group(ZarrGroup::empty())));
-    json(&ZarrGroup {
-        attributes: attributes.collect(),
-        consolidated_metadata: Some(Consolidated::of(arrays.chain(subgroup).collect())),
-        ..ZarrGroup::empty()
-    })
+    let metadata = Some(Consolidated::of(arrays.chain(subgroup).collect()));
+    let mut text = json(&ZarrGroup { consolidated_metadata: metadata, ..ZarrGroup::empty() });
+    text.drain(..group_head(std::iter::empty()).len());
+    text
 }
 
 /// The `zarr.json` of a group within a recording, with the metadata of its arrays.
@@ -260,6 +266,26 @@ impl ZarrArray {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn head_and_tail_are_the_whole_file() {
+        let attributes = serde_json::json!({ "title": "a\n}\n", "bodies": [1, { "name": "b" }], "empty": {} });
+        let named = || attributes.as_object().unwrap().iter().map(|(name, value)| (name.as_str(), value));
+        let arrays =
+            [ArrayInfo::growing("time", "time", 7, "s", "time"), ArrayInfo::growing("time", "pairs/force", 7, "N", "")];
+        for attributes in [named().collect::<BTreeMap<_, _>>(), BTreeMap::new()] {
+            let node = |array: &ArrayInfo| (array.name.clone(), Node::Array(Box::new(ZarrArray::of(array))));
+            let subgroup = ("pairs".to_owned(), Node::Group(ZarrGroup::empty()));
+            let metadata = Consolidated::of(arrays.iter().map(node).chain([subgroup]).collect());
+            let whole = json(&ZarrGroup {
+                attributes: attributes.clone(),
+                consolidated_metadata: Some(metadata),
+                ..ZarrGroup::empty()
+            });
+            let parts = [group_head(attributes.into_iter()), group_tail(&arrays, Some("pairs"))].concat();
+            assert_eq!(String::from_utf8(parts), String::from_utf8(whole));
+        }
+    }
 
     #[test]
     fn labels_survive_and_damaged_ones_are_told() {
