@@ -23,6 +23,8 @@ pub struct Solid {
     parts: Vec<Surface>,
     /// The radius of each part that meets other bodies about the centre of mass [m].
     radii: Vec<f64>,
+    /// A bound of the radius of each about the middle of its area [m].
+    girths: Vec<f64>,
 }
 
 impl Solid {
@@ -39,8 +41,10 @@ impl Solid {
     }
 
     fn of(shape: Shape, mass: MassProperties, surface: Option<Surface>, parts: Vec<Surface>) -> Self {
-        let mut this = Self { shape, mass, surface, parts, radii: Vec::new() };
+        let mut this = Self { shape, mass, surface, parts, radii: Vec::new(), girths: Vec::new() };
         this.radii = (0..this.count_parts()).map(|part| this.part(part).radius()).collect();
+        let girth = |(part, radius): (usize, &f64)| radius + this.part(part).area_center().norm().min(*radius);
+        this.girths = this.radii.iter().enumerate().map(girth).collect();
         this
     }
 
@@ -55,6 +59,15 @@ impl Solid {
     /// If there is no such part.
     pub fn part_radius(&self, index: usize) -> f64 {
         self.radii[index]
+    }
+
+    /// A bound of the radius of a part about the middle of its area [m]: behind a plane that touches it, its points are
+    /// no farther off in the mean.
+    ///
+    /// # Panics
+    /// If there is no such part.
+    pub fn part_girth(&self, index: usize) -> f64 {
+        self.girths[index]
     }
 
     /// The parts of two, each of one with each of the other, ascending.

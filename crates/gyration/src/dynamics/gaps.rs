@@ -7,15 +7,19 @@ use crate::acting::PairEnd;
 use crate::inadmissible::{Inadmissible, Quantity};
 use crate::instant::{BodyAt, PartyAt, outside, with_sides};
 use crate::model::PATIENCE;
-use crate::neighbours::Pair;
+use crate::neighbours::{Pair, PairKey};
 use crate::pair::PairLoads;
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, DefaultHasher};
 
-/// What a slab is wider than: the distance of the centres less so many radii of both. With d_i ≤ g_i + 2r_i on both
-/// surfaces, Φ ≤ (g + 2r_A + 2r_B) Σ w_i S_i^−p; a plane across the distance D ≥ |Δ| − r_A − r_B has D times that sum.
-/// That of two balls is D.
+/// What a slab is wider than, for bodies of which no more is known: the distance of the centres less so many radii of
+/// both.
 const WIDEST: f64 = 3.0;
 /// So few bodies are asked one by one.
 const FEW: usize = 64;
+
+/// The slabs between bodies out of reach that were found at an instant, since each of the two asks for them.
+pub(super) type FarSlabs = HashMap<PairKey, f64, BuildHasherDefault<DefaultHasher>>;
 
 /// A search for the smallest slab of a body.
 struct Search<'a, 'b> {
@@ -71,7 +75,7 @@ fn smallest_gap(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible>
     for other in near.outsize() {
         search.ask(*other)?;
     }
-    let radii = near.largest_radius() + at.body.solid.radius().unwrap_or(0.0);
+    let radii = near.largest_radius() + at.body.radius_at(&at.motion.placement);
     for (distance, other) in near.outward(&at.motion.placement.position) {
         if distance - search.widest * radii > search.smallest {
             break;
@@ -83,9 +87,22 @@ fn smallest_gap(at: &BodyAt, scratch: &mut Scratch) -> Result<f64, Inadmissible>
 
 impl Search<'_, '_> {
     /// What the slab of a pair is no narrower than [m].
+    ///
+    /// Points are g_i + s_i off the plane in the mean of either surface at the most, s_i their radius about the middle
+    /// of it, and d^−p is convex: Φ ≤ (g + s_A + s_B) Σ w_i S_i^−p. A plane across the distance D ≥ |Δ| − r_A − r_B has
+    /// D times that sum, so that g ≥ D − s_A − s_B. That of two balls is D.
     fn least(&self, pair: &Pair) -> f64 {
-        let distance = PartyAt::apart(&self.at.parties_of(pair), pair.cell).norm();
-        pair.form.gap_of_balls(distance).unwrap_or_else(|| distance - WIDEST * pair.form.radii().iter().sum::<f64>())
+        let parties = self.at.parties_of(pair);
+        let distance = PartyAt::apart(&parties, pair.cell).norm();
+        let hidden = |end: usize| {
+            let (party, part) = (&parties[end], pair.parts[end]);
+            let radius = party.solid().part_radius(part);
+            if party.is_rigid() {
+                return radius + party.solid().part_girth(part);
+            }
+            WIDEST * party.motion().placement.stretch_bound() * radius
+        };
+        pair.form.gap_of_balls(distance).unwrap_or_else(|| distance - hidden(0) - hidden(1))
     }
 
     /// Looks at the pairs that are not listed of the body and another.
@@ -96,7 +113,7 @@ impl Search<'_, '_> {
             return Err(at.outside(Quantity::Interruption, f64::NAN));
         }
         let beside = at.beside(other);
-        let radii = [at.body, beside.body].map(|body| body.solid.radius().unwrap_or(0.0));
+        let radii = [at, &beside].map(|one| one.body.radius_at(&one.motion.placement));
         if at.from(&beside).norm() - self.widest * (radii[0] + radii[1]) >= self.smallest {
             return Ok(());
         }
@@ -124,11 +141,16 @@ impl Search<'_, '_> {
         if let Some(gap) = pair.form.gap_of_balls(PartyAt::apart(&parties, pair.cell).norm()) {
             return Ok(gap);
         }
+        if let Some(known) = self.scratch.far_slabs.get(&pair.key()) {
+            return Ok(*known);
+        }
         let found = with_sides(pair, &parties, |sides| {
             // A plane of least potential may be beyond the digits of a number.
             let found = PairLoads::integrate(&pair.form, sides, None, &mut self.scratch.pairs);
             found.or_else(|_| PairLoads::nothing(&pair.form, sides))
         });
-        found.map(|loads| loads.gap).map_err(|fault| outside(pair, fault))
+        let gap = found.map(|loads| loads.gap).map_err(|fault| outside(pair, fault))?;
+        self.scratch.far_slabs.insert(pair.key(), gap);
+        Ok(gap)
     }
 }

@@ -87,6 +87,8 @@ pub struct Scratch {
     balances: inertialess::Balances,
     joints: joints::JointEquations,
     numbers: Vec<f64>,
+    /// Of the instant that was read last.
+    far_slabs: gaps::FarSlabs,
 }
 
 impl Scratch {
@@ -120,6 +122,7 @@ impl Workspace {
         state: &State,
     ) -> Result<(Instant<'a>, &'a mut Scratch), Inadmissible> {
         let Self { instants, scratch, .. } = self;
+        scratch.far_slabs.clear();
         let mut instant = instants.read(model, state.time, state.numbers())?;
         inertialess::solve(&mut instant, scratch)?;
         joints::solve(&mut instant, scratch)?;

@@ -3,7 +3,7 @@
 use super::curved::{ConeWall, CylinderWall, Disk, Ellipsoid, Hemisphere, Patch, Primitive, Sphere, Torus};
 use super::facets::{BATCH, Facets, FacetsError};
 use super::gap::{GapClosed, GapField};
-use super::moments::{AxialMoments, MomentRequest, Moments};
+use super::moments::{AxialMoments, Kernel, MomentRequest, Moments};
 use super::oriented::OrientedMoments;
 use super::plan::MomentPlan;
 use crate::extended::Extended;
@@ -145,6 +145,17 @@ impl Surface {
             patch.add_moments(field, plan, out);
         }
         Ok(())
+    }
+
+    /// The middle of its area, ∫ X dA/∫ dA [m].
+    pub fn area_center(&self) -> Vec3 {
+        let mut found = [Moments::default()];
+        let request = MomentRequest { kernel: Kernel::Power(0.0), order: 1 };
+        // Of a gap of one everywhere.
+        match self.moments(&GapField::new(1.0, Vec3::zeros()), &[request], &mut found) {
+            Ok(()) if found[0].zeroth > 0.0 => found[0].first / found[0].zeroth,
+            _ => Vec3::zeros(),
+        }
     }
 
     /// The moments of a ball about the origin of X, set in the entries of `out`: arguments as for
