@@ -147,3 +147,43 @@ fn images_that_matter_and_are_left_out_are_told() {
     }
     assert!(!told("repeat = [6, 1, 1]\nperiodic = false", 2.5, ""));
 }
+
+/// Two shells of Lennard-Jones in a chain that is written too short: six cells of a ring have the waves of κ = n/6 of
+/// the cell whose vectors rest, a = 1.1196.
+#[test]
+fn the_modes_of_a_ring_are_its_bands_where_its_cells_rest_too() {
+    let bond = |cells: u32| {
+        format!("[[bond]]\nbetween = [\"a\", \"a\"]\ncell = [{cells}, 0, 0]\nlaw = \"4*(l^-12 - l^-6)\"\n")
+    };
+    let text = format!(
+        "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 1, sample = 1 }}\n[lattice]\ncell = [[1.1, 0, 0]]\n\
+         repeat = [6, 1, 1]\nrelax = [\"granules\", \"cell\"]\n[[body]]\nname = \"a\"\n\
+         shape = {{ points = [{{ mass = 1, at = [0, 0, 0] }}] }}\nkeep = {{ line = [1, 0, 0] }}\n{}{}",
+        bond(1),
+        bond(2)
+    );
+    let found = modes(&parsed(&text, &[]));
+    let rest = found.systems[0].rest_state.as_ref().unwrap_or_else(|| panic!("{:?}", found.systems));
+    let place = |body: usize| rest.bodies.0[body].1.position[0];
+    assert!((place(1) - place(0) - 1.119_610_866_3).abs() < 1e-9);
+    let frequencies: Vec<f64> = rest.modes.iter().map(|mode| mode.frequency).collect();
+    // κ = 0, 1/6 and 5/6, 1/3 and 2/3, 1/2, from the second derivatives of the law at a and 2a.
+    let stiffness = |l: f64| 4.0 * (156.0 * l.powi(-14) - 42.0 * l.powi(-8));
+    let [near, far] = [1.0, 2.0].map(|cells| stiffness(cells * (place(1) - place(0))));
+    let omega = |kappa: f64| {
+        let shells =
+            [(near, 0.5), (far, 1.0)].map(|(k, half)| 4.0 * k * (std::f64::consts::TAU * kappa * half).sin().powi(2));
+        (shells[0] + shells[1]).sqrt()
+    };
+    let expected = [0.0, omega(1.0 / 6.0), omega(1.0 / 6.0), omega(1.0 / 3.0), omega(1.0 / 3.0), omega(0.5)];
+    assert_eq!(frequencies.len(), 6);
+    for (found, expected) in frequencies.iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+    }
+    assert!((frequencies[5] - 15.526_001).abs() < 1e-5);
+    // What has no cell at rest says so in the place of modes.
+    let loose = text.replace("4*(l^-12 - l^-6)", "l^-12");
+    let found = modes(&parsed(&loose, &[]));
+    let said = found.systems[0].no_rest_state_because.as_ref().unwrap();
+    assert!(said.contains("cell"), "{said}");
+}

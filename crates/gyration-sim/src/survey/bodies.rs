@@ -1,5 +1,6 @@
 //! What the survey says of each body: beside every support, and where it rests.
 
+use super::cell;
 use super::joints::{JointSurvey, LinkageSurvey};
 use super::kind::KindSurvey;
 use super::laws::LawSurvey;
@@ -130,11 +131,19 @@ pub struct SystemModes {
 
 /// The modes of every body and system of a scene.
 pub fn modes(scene: &Scene) -> SceneModes {
-    let (model, start) = (&scene.built().model, &scene.built().state);
+    let built = scene.built();
+    let carried = cell::at_rest(built);
+    // In cells that find no rest no body does.
+    let is_at_rest = carried.as_ref().map_err(String::clone);
+    let (model, start) = match &carried {
+        Ok(Some((model, start))) => (model, start),
+        Ok(None) | Err(_) => (&built.model, &built.state),
+    };
     let systems = systems(model);
     let of = |(index, body): (usize, &Arc<Body>)| {
         let system = systems.iter().position(|members| members.binary_search(&index).is_ok());
-        let alone = system.is_none().then(|| rest_state(model, start, index));
+        let found = || is_at_rest.clone().and_then(|_| RestState::of(model, start, index));
+        let alone = system.is_none().then(|| told(found()));
         let (rest_state, no_rest_state_because) = alone.unwrap_or_default();
         BodyModes {
             name: model.name(index).to_owned(),
@@ -151,12 +160,9 @@ pub fn modes(scene: &Scene) -> SceneModes {
                 "{many} bodies hang together; rest states are found of {MOST_MEMBERS} at most: join fewer, or give \
                  contacts between them a reach"
             )),
-            _ => SystemRestState::of(model, start, members),
+            _ => is_at_rest.clone().and_then(|_| SystemRestState::of(model, start, members)),
         };
-        let (rest_state, no_rest_state_because) = match found {
-            Ok(state) => (Some(state), None),
-            Err(reason) => (None, Some(reason)),
-        };
+        let (rest_state, no_rest_state_because) = told(found);
         let bodies = members.iter().map(|body| model.name(*body).to_owned()).collect();
         SystemModes { bodies, no_rest_state_because, rest_state }
     };
@@ -181,9 +187,9 @@ pub fn modes_in_json(scene: &Scene) -> Value {
     json!({ "scene": scene.name(), "bodies": bodies, "systems": systems })
 }
 
-/// The rest state of a body, or why there is none.
-fn rest_state(model: &Model, start: &State, index: usize) -> (Option<RestState>, Option<String>) {
-    match RestState::of(model, start, index) {
+/// What was found, or why it was not.
+fn told<T>(found: Result<T, String>) -> (Option<T>, Option<String>) {
+    match found {
         Ok(state) => (Some(state), None),
         Err(reason) => (None, Some(reason)),
     }
@@ -238,7 +244,8 @@ fn survey_body(model: &Model, start: &State, index: usize) -> BodySurvey {
         })
     };
     let deforms = body.affine().is_some();
-    let (rest_state, no_rest_state_because) = if deforms { rest_state(model, start, index) } else { (None, None) };
+    let (rest_state, no_rest_state_because) =
+        if deforms { told(RestState::of(model, start, index)) } else { (None, None) };
     BodySurvey {
         name: model.name(index).to_owned(),
         size: body.size,

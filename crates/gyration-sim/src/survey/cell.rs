@@ -1,8 +1,10 @@
 //! The cell of a scene that has a lattice, and its waves.
 
 use crate::modes::bands::{LatticeWaves, NoBands, StrainPath, StrainedCell};
+use gyration::model::Model;
+use gyration::state::State;
 use gyration::tensor::Mat3;
-use gyration_scene::{Scene, UnitCell};
+use gyration_scene::{Built, Scene, UnitCell};
 
 /// The cell of a scene whose bands are asked for.
 ///
@@ -31,6 +33,17 @@ pub(super) fn waves_of(cell: &UnitCell, strain: Option<&StrainPath>) -> Result<L
         (None, Some(_)) => Ok(beginning(cell)?.at(&Mat3::identity())?.1),
         (Some(strain), _) => Ok(beginning(cell)?.at(&strain.at(0.0))?.1),
     }
+}
+
+/// The model of a run and its start where the vectors of its cells rest, if they are to: `relax` with "cell".
+///
+/// # Errors
+/// Why they have no rest, in words.
+pub(super) fn at_rest(built: &Built) -> Result<Option<(Model, State)>, String> {
+    let cell = built.cell.as_ref().filter(|cell| cell.load.is_some() && cell.periodic.contains(&true));
+    let Some(cell) = cell else { return Ok(None) };
+    let rest = beginning(cell).map_err(|none| none.to_string())?;
+    Ok(Some(rest.carry(&built.model, &built.state)))
 }
 
 /// The cell that strains are of: as it is written, or as it rests under its stress.

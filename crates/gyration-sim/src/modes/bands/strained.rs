@@ -96,6 +96,19 @@ impl StrainPath {
     }
 }
 
+/// Cells that have gone to F x, with their bodies.
+fn carried((model, state): (&Model, &State), strain: &Mat3, lattice: Lattice) -> (Model, State) {
+    let model = model.clone().with_cells_deformed(strain, lattice);
+    let mut state = State { low: Vec::new(), ..state.clone() };
+    for body in 0..model.bodies.len() {
+        let place = &mut state.bodies[model.slots(body).position()];
+        if let [x, y, z] = *place {
+            place.copy_from_slice((strain * Vec3::new(x, y, z)).as_slice());
+        }
+    }
+    (model, state)
+}
+
 /// Which entry a name means.
 fn component(name: &str) -> Option<[usize; 2]> {
     let axis = |letter: char| "xyz".find(letter);
@@ -114,6 +127,8 @@ pub struct StrainedCell {
     gradient: Mat3,
     /// By how much F̄ may be off where the vectors have sought their rest; 0 where they are as written.
     unsettled: f64,
+    /// F̄ at which they have come to rest; the identity where they are as written.
+    rest: Mat3,
 }
 
 /// A value of a path.
@@ -144,7 +159,8 @@ impl StrainedCell {
     /// A cell as it is written.
     pub fn new(model: &Model, state: &State) -> Self {
         let (model, state) = (model.clone(), State { low: Vec::new(), ..state.clone() });
-        Self { written: Lattice::clone(&model.lattice), model, state, gradient: Mat3::identity(), unsettled: 0.0 }
+        let one = Mat3::identity();
+        Self { written: Lattice::clone(&model.lattice), model, state, gradient: one, unsettled: 0.0, rest: one }
     }
 
     /// The cell at another deformation: its bodies move along, then seek their rest.
@@ -156,21 +172,19 @@ impl StrainedCell {
         if let Some(body) = self.model.leaves_guide(&step) {
             return Err(NoBands::Guide(self.model.name(body).to_owned()));
         }
-        let model = self.model.clone().with_cells_deformed(&step, self.written.deformed(gradient));
-        let mut state = self.state.clone();
-        for body in 0..model.bodies.len() {
-            let place = &mut state.bodies[model.slots(body).position()];
-            if let [x, y, z] = *place {
-                place.copy_from_slice((step * Vec3::new(x, y, z)).as_slice());
-            }
-        }
+        let (model, mut state) = carried((&self.model, &self.state), &step, self.written.deformed(gradient));
         let waves = LatticeWaves::new(&model, &state, true)?;
         for (body, rest) in waves.rest().bodies.iter().enumerate() {
             let start = model.slots(body).block().start;
             state.bodies[start..start + rest.block().len()].copy_from_slice(rest.block());
         }
-        let (written, unsettled) = (self.written.clone(), self.unsettled);
-        Ok((Self { model, state, written, gradient: *gradient, unsettled }, waves))
+        Ok((Self { model, state, gradient: *gradient, written: self.written.clone(), ..*self }, waves))
+    }
+
+    /// The cells of a run, of which this is one, where the vectors of this one have come to rest: their bodies move
+    /// along.
+    pub fn carry(&self, model: &Model, state: &State) -> (Model, State) {
+        carried((model, state), &self.rest, model.lattice.deformed(&self.rest))
     }
 
     /// The vectors as they are written.
@@ -181,7 +195,8 @@ impl StrainedCell {
     /// The cell at a deformation, from there on as if it were written so, but for what F̄ may be off.
     pub(super) fn as_written(&self, gradient: &Mat3, unsettled: f64) -> Result<Self, NoBands> {
         let there = self.at(gradient)?.0;
-        Ok(Self { written: Lattice::clone(&there.model.lattice), gradient: Mat3::identity(), unsettled, ..there })
+        let rest = gradient * self.rest;
+        Ok(Self { written: Lattice::clone(&there.model.lattice), gradient: Mat3::identity(), unsettled, rest, ..there })
     }
 
     /// By how much F̄ may be off.
