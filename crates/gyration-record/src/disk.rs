@@ -300,7 +300,7 @@ fn refuse_foreign(path: &Path) -> Result<(), RecordError> {
     }
 }
 
-/// Removes a recording, whole; anything else stays and is an error.
+/// Removes a recording, whole, or a folder that holds nothing; anything else stays and is an error.
 ///
 /// It first moves aside to `NAME.gyr.part`, so that a crash leaves no half recording behind.
 ///
@@ -310,6 +310,9 @@ pub fn remove(path: &Path) -> Result<(), RecordError> {
     if path.is_symlink() {
         let reason = "it is a link; remove what it points to".into();
         return Err(RecordError::NotARecording { path: path.to_path_buf(), reason });
+    }
+    if path.is_dir() && list(path)?.is_empty() {
+        return fs::remove_dir(path).map_err(RecordError::io("remove", path));
     }
     read_group(path)?;
     let _lock = lock(path, path)?;

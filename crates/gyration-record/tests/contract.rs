@@ -268,6 +268,10 @@ fn only_recordings_are_removed() {
     finished(&path, 2, 4);
     remove(&path).unwrap();
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    // A folder that holds nothing is in nobody's way.
+    fs::create_dir(&path).unwrap();
+    remove(&path).unwrap();
+    assert!(!path.exists());
     assert!(other.join("thesis.tex").exists());
     // A directory in the way of a new recording that is not ours stays too.
     fs::rename(&other, folder.path().join("run.gyr.part")).unwrap();

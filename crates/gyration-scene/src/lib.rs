@@ -14,6 +14,7 @@
 
 mod assemble;
 mod check;
+mod defaults;
 mod document;
 mod error;
 pub mod file;

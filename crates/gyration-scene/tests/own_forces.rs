@@ -212,3 +212,18 @@ fn bodies_that_differ_in_their_forces_alone_keep_their_own() {
     };
     assert_eq!([0, 1].map(force), [-3.0, -5.0]);
 }
+
+#[test]
+fn all_constants_that_are_none_are_told_once() {
+    let text = "time = { end = 1, sample = 1 }\nconstants = { sin = 1, max = 2, pi = 3, fine = 4 }\n";
+    let body = |name: &str, x: f64| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\ndensity = 10\nposition = [{x}, 0, 0]\n\
+             potential = \"x^2\"\n"
+        )
+    };
+    let text = format!("{text}{}{}", body("a", 0.0), body("b", 1.0));
+    let errors = Scene::parse("scene.toml", &text, std::path::Path::new(""), &[]).unwrap_err();
+    let keys: Vec<&str> = (&errors).into_iter().map(|error| error.key.as_str()).collect();
+    assert_eq!(keys, ["constants.sin", "constants.max", "constants.pi"], "{errors}");
+}

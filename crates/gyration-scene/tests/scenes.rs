@@ -184,6 +184,12 @@ fn overrides_change_items_by_name_and_by_index() {
     assert_eq!(built.model.supports[0].origin.z, -0.5);
     assert_eq!(changed.file().contact[0].friction.unwrap().beta.value(), 2e-3);
     assert_eq!((changed.text(), changed.overrides().len()), (EXAMPLE, 7));
+    // Gravity has a default where it is not written.
+    let weightless = EXAMPLE.replace("gravity", "# gravity");
+    let settings = ["world.gravity.2=-1.6".to_owned(), "world.gravity.0=0.1".to_owned()];
+    let changed = Scene::parse("scene.toml", &weightless, Path::new(""), &settings);
+    let changed = changed.unwrap_or_else(|errors| panic!("{errors}"));
+    assert_eq!(changed.built().model.gravity, Vec3::new(0.1, 0.0, -1.6));
 }
 
 #[test]

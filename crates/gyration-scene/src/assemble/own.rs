@@ -192,7 +192,7 @@ pub(super) fn accepted<T>(
 }
 
 /// The constants of expressions of these variables: those of a body or bond, which stand at a key, then those of the
-/// scene; none if one of them is no constant, which is noted.
+/// scene; none if some of them are no constants, which is noted.
 pub(super) fn constants(
     (key, own): (Key, Option<&BTreeMap<String, AnyQuantity>>),
     context: &SceneContext,
@@ -200,18 +200,18 @@ pub(super) fn constants(
     reporter: &mut Reporter<'_>,
 ) -> Option<Vec<(String, f64)>> {
     let tables = [(key, own), (Key::root().key("constants"), Some(context.constants?))];
-    let mut all = Vec::new();
+    let (mut all, mut are_constants) = (Vec::new(), true);
     for (key, table) in tables {
         for (name, value) in table.into_iter().flatten() {
             let constant = [(name.clone(), value.0)];
             if let Err(error) = check_constants(variables, &constant) {
                 reporter.note(&key.key(name), error.to_string(), "rename it, here and where it stands");
-                return None;
+                are_constants = false;
             }
             all.extend(constant);
         }
     }
-    Some(all)
+    are_constants.then_some(all)
 }
 
 /// Result of what is defined at the start.

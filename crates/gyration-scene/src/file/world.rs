@@ -1,5 +1,6 @@
 //! `[world]`: what acts on all bodies.
 
+use crate::defaults::GRAVITY;
 use crate::quantity::{Acceleration, GravitationalConstant, Positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,6 +26,6 @@ pub struct SelfGravity {
 
 impl Default for World {
     fn default() -> Self {
-        Self { gravity: [0.0, 0.0, -9.81].map(Acceleration), self_gravity: None }
+        Self { gravity: GRAVITY.map(Acceleration), self_gravity: None }
     }
 }

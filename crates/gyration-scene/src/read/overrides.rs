@@ -2,11 +2,12 @@
 //!
 //! `KEY=VALUE`, where KEY is dotted, items of arrays by name, else by index from zero; a word in quotes may hold dots.
 //! VALUE is a TOML value; what is none and does not look like one (`30 deg`, `explicit`) is a string. Tables on the way
-//! are made where there are none, items of arrays are not. Whatever an override brings is from then on placed in its
+//! are made where there are none, items of arrays are not, but for those of gravity, which has a default. Whatever an override brings is from then on placed in its
 //! own text; what is a number already has no text, and no place.
 
 use super::printed::Printed;
 use super::toml;
+use crate::defaults::GRAVITY;
 use crate::document::{Diagnostics, Document, NamedText};
 use crate::key::{Key, name_of, split_copy};
 use crate::overriding::{Override, OverrideValue};
@@ -119,7 +120,12 @@ fn step<'a>(at: &'a mut Node, word: &Word<'_>, next: Option<&Word<'_>>) -> Resul
     let fault = |message: String, help: String| Err(OverrideError::Key(word.span, message, help));
     match &mut at.value {
         Value::Table(table) => {
-            if next.is_some_and(|next| next.name.parse::<usize>().is_ok()) && !table.contains_key(word.name) {
+            let is_item = next.is_some_and(|next| next.name.parse::<usize>().is_ok());
+            if is_item && word.name == "gravity" {
+                let default = || Entry { key_span: word.span, node: Node { span: word.span, ..array(&GRAVITY) } };
+                return Ok(&mut table.entry(word.name.to_owned()).or_insert_with(default).node);
+            }
+            if is_item && !table.contains_key(word.name) {
                 let message = format!("no `{}` is written here, so that it has no items", word.name);
                 return fault(message, format!("set it as a whole first: {} = [1, 0, 0]", word.name));
             }

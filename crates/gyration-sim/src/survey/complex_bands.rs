@@ -54,8 +54,8 @@ impl ComplexBandSurvey {
                 [0.0, 1.1 * most]
             }
         };
-        let count = options.points.max(2);
-        let omega: Vec<f64> = (0..count).map(|k| from + (to - from) * k as f64 / (count - 1) as f64).collect();
+        let last = options.points.saturating_sub(1).max(1) as f64;
+        let omega: Vec<f64> = (0..options.points.max(1)).map(|k| from + (to - from) * k as f64 / last).collect();
         let kappa = path.points[0].kappa;
         let found = omega.iter().map(|omega| waves.evanescent(&kappa, direction, *omega));
         let kappa = found.collect::<Result<_, _>>().map_err(told)?;
