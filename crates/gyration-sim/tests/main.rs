@@ -30,6 +30,7 @@ mod neighbours;
 mod network;
 mod own_forces;
 mod partings;
+mod passing;
 mod pressed;
 mod presses;
 mod random;

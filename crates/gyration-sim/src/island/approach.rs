@@ -31,6 +31,11 @@ impl Approach {
         Self { acceleration: self.acceleration + bend, ..self }
     }
 
+    /// |Δṗ| [m/s].
+    pub fn speed(&self) -> f64 {
+        self.velocity.norm()
+    }
+
     /// The distance after a time without acceleration [m].
     pub fn straight(&self, time: f64) -> f64 {
         (self.place + time * self.velocity).norm()

@@ -11,11 +11,13 @@
 //! or a drive has a kink, and takes a quarter of a drive's fastest period at most. An oscillating support counts as its
 //! foremost place, and is followed in eighths of its period where it may meet the body. A body at rest, or one that
 //! leaves, is not held up. Two bodies that meet approach planes between them (`pair_approach`); those that are out of
-//! reach of each other come halfway into it. Steps are cut by this and never lengthened.
+//! reach of each other come halfway into it, and those that pass one another are looked at where they are nearest
+//! (`passing`). Steps are cut by this and never lengthened.
 
 use crate::island::approach::{Approach, may_meet};
 use crate::island::carried::SeenFromSupport;
 use crate::island::pair_approach::PairApproach;
+use crate::island::passing::until_nearest;
 use crate::island::plane_approach::{PlaneApproach, first_root};
 use crate::island::step_end::StepEnd;
 use gyration::Party;
@@ -104,6 +106,7 @@ pub(crate) fn horizon(
             _ => {
                 let approach = PairApproach::of(model, pair, (both, bend), radii, &slab.normal);
                 step = step.min(approach.time(usual, step));
+                step = step.min(until_nearest(model, pair, both, slab.gap, step));
             }
         }
     }

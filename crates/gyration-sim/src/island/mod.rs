@@ -16,6 +16,7 @@ mod merging;
 mod noting;
 mod pack;
 mod pair_approach;
+mod passing;
 mod path_bound;
 mod paths;
 mod peak_forces;

@@ -83,6 +83,11 @@ impl PairForm {
         Some(5.0 * self.threshold / steep)
     }
 
+    /// U_m [J]: no pair of such surfaces stores more at a gap [m].
+    pub fn most_stored(&self, gap: f64, surfaces: [&Surface; 2]) -> f64 {
+        self.laws.most(gap, surfaces.map(Surface::area))
+    }
+
     /// The slab between two rigid balls whose centres have a distance [m]; none of other shapes.
     pub fn gap_of_balls(&self, distance: f64) -> Option<f64> {
         self.balls.is_some().then(|| distance - self.radii[0] - self.radii[1])
