@@ -114,3 +114,19 @@ fn a_sphere_with_memory_sinks_without_a_failure_of_newtons_method() {
         assert!(statistics.accepted() < most && statistics.newton_failures == 0, "{statistics:?}");
     }
 }
+
+/// Symptom: an oscillator was slow at both ends of steps of more than half a period, and "came to rest".
+#[test]
+fn what_swings_within_its_steps_does_not_come_to_rest() {
+    // 0.1 |cos t| is below 0.05 for 2π/6 s, below 0.09 for 2.24 s at a time.
+    for (rtol, speed, hold) in [(1e-2, 0.05, 2.8), (1e-4, 0.09, 2.8), (1e-4, 0.05, 1.5), (1e-6, 0.09, 2.5)] {
+        let text = format!(
+            "world = {{ gravity = [0, 0, 0] }}\nsolver = {{ rtol = {rtol} }}\n\
+             time = {{ end = 60, sample = 1, stop_at_rest = {{ speed = {speed}, hold = {hold} }} }}\n[[body]]\n\
+             name = \"a\"\nshape = {{ points = [{{ mass = 1, at = [0, 0, 0] }}] }}\nvelocity = [0.1, 0, 0]\n\
+             spring = [{{ anchor = [0, 0, 0], stiffness = 1 }}]\n"
+        );
+        let (sink, _) = run(&text, &[]);
+        assert_eq!(sink.rows.last().unwrap().0, 60.0, "rtol {rtol}, {speed} m/s for {hold} s");
+    }
+}

@@ -351,7 +351,7 @@ impl Island {
         self.note_peaks(report.start, report.end, plan);
         self.note_path_bounds(&report);
         self.note_parting();
-        self.note_rest(plan, report.end);
+        self.note_rest(plan, &report);
         self.check_frictions(report.end)?;
         self.check_half_turns(&report)?;
         self.check_linkages(&report)?;

@@ -5,6 +5,10 @@ use crate::island::step_end::StepEnd;
 use crate::plan::RunPlan;
 use crate::run_state::DISSIPATION;
 use gyration::balance::{fastest_speed, kinetic_energy};
+use gyration_ode::StepReport;
+
+/// The parts of a step at which speeds are looked at besides its ends: a swing has a quarter of its period in a step.
+const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
 
 impl Island {
     /// The works of [`DISSIPATION`] after the last step [J]; zero where the ledger has none.
@@ -34,12 +38,23 @@ impl Island {
             && bodies.into_iter().all(|(body, end)| fastest_speed(body, &end.motion) < rest.speed)
     }
 
-    /// Notes since when all bodies have been slow.
-    pub fn note_rest(&mut self, plan: &RunPlan, time: f64) {
+    /// Notes since when all bodies have been slow, after a step: at its end, and, where they are slow at both, within.
+    pub fn note_rest(&mut self, plan: &RunPlan, step: &StepReport) {
         if !self.is_slow(plan) {
             self.state.slow_since = f64::NAN;
-        } else if self.state.slow_since.is_nan() {
-            self.state.slow_since = time;
+        } else if self.state.slow_since.is_nan() || self.is_fast_within(plan, step) {
+            self.state.slow_since = step.end;
         }
+    }
+
+    /// Whether a body is as fast as the speed of rest at a quarter, at half or at three quarters of the last step.
+    fn is_fast_within(&mut self, plan: &RunPlan, step: &StepReport) -> bool {
+        let Some(rest) = plan.stop_at_rest else { return false };
+        LOOKS.iter().any(|part| {
+            self.sample(step.start + part * (step.end - step.start));
+            let model = self.system.model();
+            let motion = |body: usize| self.sampled.motion(model, body);
+            (0..model.bodies.len()).any(|body| fastest_speed(&model.bodies[body], &motion(body)) >= rest.speed)
+        })
     }
 }
