@@ -1,7 +1,7 @@
 //! Wavefront OBJ: the lines `v x y z` and `f i j k …`; all others are ignored.
 //!
-//! A line that ends in a backslash goes on in the next. An index counts from 1, or from the end if negative; what follows a slash (texture, normal) is ignored. Groups and
-//! objects of a file form one surface.
+//! A line that ends in a backslash goes on in the next. An index counts from 1, or from the end if negative; what
+//! follows a slash (texture, normal) is ignored. Groups and objects of a file form one surface.
 
 use gyration::shape::Polyhedron;
 use gyration::tensor::Vec3;

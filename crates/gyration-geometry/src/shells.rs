@@ -2,8 +2,8 @@
 //!
 //! A closed surface may have several pieces: bodies side by side, and voids, whose triangles face the other way. The
 //! number of shells around a point, voids counted as −1, is then 0 or 1 everywhere, and the volume is the sum of
-//! theirs. It is not where shells cross one another or themselves, where one lies within another of the same sense, and where a void is in
-//! nothing.
+//! theirs. It is not where shells cross one another or themselves, where one lies within another of the same sense, and
+//! where a void is in nothing.
 //!
 //!   w(x) = (1/4π) Σ solid angles of the triangles,   tan(Ω/2) = a·(b×c)/(abc + (a·b)c + (b·c)a + (c·a)b)
 //!

@@ -218,8 +218,8 @@ fn all_constants_that_are_none_are_told_once() {
     let text = "time = { end = 1, sample = 1 }\nconstants = { sin = 1, max = 2, pi = 3, fine = 4 }\n";
     let body = |name: &str, x: f64| {
         format!(
-            "[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\ndensity = 10\nposition = [{x}, 0, 0]\n\
-             potential = \"x^2\"\n"
+            "[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\ndensity = 10\n\
+             position = [{x}, 0, 0]\npotential = \"x^2\"\n"
         )
     };
     let text = format!("{text}{}{}", body("a", 0.0), body("b", 1.0));

@@ -153,15 +153,16 @@ fn the_smallest_gap_is_that_of_the_law_without_a_reach() {
     }
 }
 
-/// Shapes whose middle is not that of their area, long ones, unions, and a soft body drawn out to three times its length:
-/// the bound by which others are left out holds for each of them.
+/// Shapes whose middle is not that of their area, long ones, unions, and a soft body drawn out to three times its
+/// length: the bound by which others are left out holds for each of them.
 #[test]
 fn the_smallest_gap_is_found_whatever_the_shapes() {
     let shapes = [
         "cone = { radius = 0.2, height = 0.6 }",
         "box = { size = [0.9, 0.1, 0.05] }",
         "cylinder = { radius = 0.3, height = 0.05 }",
-        "union = { parts = [{ shape = { box = { size = [0.2, 0.2, 0.2] } } }, { shape = { sphere = { radius = 0.1 } }, offset = [0.4, 0, 0] }] }",
+        "union = { parts = [{ shape = { box = { size = [0.2, 0.2, 0.2] } } }, \
+         { shape = { sphere = { radius = 0.1 } }, offset = [0.4, 0, 0] }] }",
         "capsule = { radius = 0.05, height = 0.8 }",
     ];
     let found = |reach: &str, spacing: f64| {
@@ -179,7 +180,8 @@ fn the_smallest_gap_is_found_whatever_the_shapes() {
             let (shape, motion) =
                 if k == 62 { ("ellipsoid = { semi_axes = [0.2, 0.1, 0.1] }", soft) } else { (shape, &*attitude) };
             text += &format!(
-                "[[body]]\nname = \"b{k}\"\ngroup = \"all\"\nshape = {{ {shape} }}\ndensity = 10\n{motion}\nposition = {place:?}\n"
+                "[[body]]\nname = \"b{k}\"\ngroup = \"all\"\nshape = {{ {shape} }}\ndensity = 10\n{motion}\n\
+                 position = {place:?}\n"
             );
         }
         let scene = parsed(&text, &[]);

@@ -5,8 +5,8 @@ use crate::runs::provenance;
 use gyration::tensor::Vec3;
 use gyration_sim::{Job, MemorySink, Simulation, Unwatched};
 
-/// A ball that flies past another, or past one that is a support, from a distance and beside it by so much; how fast
-/// it goes across afterwards \[m/s\].
+/// A ball that flies past another, or past one that is a support, from a distance and beside it by so much; how fast it
+/// goes across afterwards \[m/s\].
 fn across(start: f64, beside: f64, words: &str, is_support: bool) -> f64 {
     let shape = "shape = { sphere = { radius = 0.05 } }";
     let other = match is_support {

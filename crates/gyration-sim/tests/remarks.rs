@@ -120,8 +120,8 @@ fn a_reach_within_the_gaps_of_turning_is_warned_of() {
 fn a_feedback_on_the_gap_tells_that_supports_with_a_shape_are_not_felt() {
     let feedback = "feedback = { measure = \"support_gap\", gain = [[0, 0, 0], [0, 0, 0], [0, 0, 10]] }";
     let body = format!(
-        "[[body]]\nname = \"c\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\ndensity = 1000\ncontractile = {{ material = \
-         {{ neo_hookean = {{ shear = 1e4 }} }}, contraction_viscosity = 100, {feedback} }}\n"
+        "[[body]]\nname = \"c\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\ndensity = 1000\n\
+         contractile = {{ material = {{ neo_hookean = {{ shear = 1e4 }} }}, contraction_viscosity = 100, {feedback} }}\n"
     );
     let plane = "[[support]]\nname = \"wall\"\nplane = { origin = [0, 0, -10] }\n";
     let ball = "[[support]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\nposition = [0, 0, -0.3]\n";

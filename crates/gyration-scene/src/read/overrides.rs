@@ -2,8 +2,8 @@
 //!
 //! `KEY=VALUE`, where KEY is dotted, items of arrays by name, else by index from zero; a word in quotes may hold dots.
 //! VALUE is a TOML value; what is none and does not look like one (`30 deg`, `explicit`) is a string. Tables on the way
-//! are made where there are none, items of arrays are not, but for those of gravity, which has a default. Whatever an override brings is from then on placed in its
-//! own text; what is a number already has no text, and no place.
+//! are made where there are none, items of arrays are not, but for those of gravity, which has a default. Whatever an
+//! override brings is from then on placed in its own text; what is a number already has no text, and no place.
 
 use super::printed::Printed;
 use super::toml;

@@ -41,7 +41,8 @@ const REPETITIONS: [f64; 3] = [1.0, 2.0, 3.0];
 /// So many steps are tried, and each is halved so often.
 const MOST_STEPS: usize = 40;
 const MOST_HALVINGS: usize = 8;
-/// Where nothing is found a motion that has losses goes on for so many periods first, which bring it to what attracts it.
+/// Where nothing is found a motion that has losses goes on for so many periods first, which bring it to what attracts
+/// it.
 const SETTLING: [f64; 2] = [8.0, 64.0];
 /// Multipliers this near to one are those of phase and symmetries.
 const TRIVIAL: f64 = 1e-3;

@@ -13,8 +13,8 @@
 //! | `placement` | – | P, row by row |
 //!
 //! The axes are those of the shape, P = R U with half-extents U_ii times those of the shape. A ball that deforms is an
-//! ellipsoid, told exactly: the axes are those of U. Numbers have as many digits as bring them back. Where bodies follow
-//! one another without end, a frame has the parallelepiped that all of them fill (`cell`).
+//! ellipsoid, told exactly: the axes are those of U. Numbers have as many digits as bring them back. Where bodies
+//! follow one another without end, a frame has the parallelepiped that all of them fill (`cell`).
 //!
 //! Source of the format: the manual of OVITO, "XYZ file reader".
 

@@ -170,7 +170,7 @@ fn warnings_of_model(
     if stress > STRESSED * continuum.stiffness() {
         warnings.push(format!(
             "the rest state is under stress, up to {stress:.4e} in the units of the moduli: C holds it too, as waves \
-             do, and C_iajb and C_aijb differ by {:.2e} of the largest modulus",
+             do, and C_iajb and C_jbia differ by {:.2e} of the largest modulus",
             continuum.asymmetry()
         ));
     }

@@ -219,7 +219,7 @@ impl Continuum {
         moduli::largest(&self.held()).max(moduli::largest(&self.macroscopic))
     }
 
-    /// The largest |C_iajb − C_aijb| in the space of the cell vectors, as a part of the largest modulus.
+    /// The largest |C_iajb − C_jbia| in the space of the cell vectors, as a part of the largest modulus.
     pub fn asymmetry(&self) -> f64 {
         self.asymmetry
     }

@@ -161,3 +161,31 @@ fn what_follows_gives_way_by_what_it_is_coupled_with() {
         assert!((products - differs).abs() < 1e-9 * most, "{i}{a}{j}{b}: {products} {differs}");
     }
 }
+
+/// A triangular net of springs under stress: C of waves is no longer symmetric in its pairs.
+#[test]
+fn a_stress_breaks_the_symmetry_of_pairs_and_that_is_told() {
+    let spring = |cell: [i32; 3], stiffness: f64, rest_length: f64| {
+        format!(
+            "[[spring]]\nbetween = [\"a\", \"a\"]\ncell = {cell:?}\nstiffness = {stiffness}\n\
+             rest_length = {rest_length}\n"
+        )
+    };
+    let text = format!(
+        "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 1, sample = 1 }}\n\
+         lattice = {{ cell = [[0.1, 0, 0], [0.05, 0.0866025403784438647, 0]] }}\n[[body]]\nname = \"a\"\n\
+         shape = {{ points = [{{ mass = 0.3, at = [0, 0, 0] }}] }}\npotential = \"0.5*1e5*z^2\"\n{}{}{}",
+        spring([1, 0, 0], 100.0, 0.02),
+        spring([0, 1, 0], 130.0, 0.095),
+        spring([-1, 1, 0], 170.0, 0.102)
+    );
+    let continuum = waves(&text).continuum(&["a"]).unwrap_or_else(|error| panic!("{error}"));
+    let c = continuum.macroscopic();
+    println!("C_xyxy {}, C_xyyx {}, asymmetry {}", c[0][1][0][1], c[0][1][1][0], continuum.asymmetry());
+    // σ_xx of the first spring alone, 8 N per row of 0.0866 m.
+    assert!(continuum.asymmetry() > 0.3, "{}", continuum.asymmetry());
+    // In the plane.
+    for [i, a, j, b] in (0..16).map(|n| [n / 8, n / 4 % 2, n / 2 % 2, n % 2]) {
+        assert!((c[i][a][j][b] - c[a][i][j][b]).abs() < 1e-9 * c[0][0][0][0]);
+    }
+}
