@@ -240,7 +240,7 @@ mod tests {
     #[test]
     fn hulls_of_many_points_are_those_of_all() {
         // A spiral, points along lines, and many at one place.
-        let spiral = (0..400).map(|k| f64::from(k)).map(|k| [k * libm::cos(2.4 * k), 0.3 * k * libm::sin(2.4 * k)]);
+        let spiral = (0..400).map(f64::from).map(|k| [k * libm::cos(2.4 * k), 0.3 * k * libm::sin(2.4 * k)]);
         let grid = (0..100).map(|k| [f64::from(k % 10), f64::from(k / 10)]);
         let line = (0..50).map(|k| [f64::from(k), 2.0 * f64::from(k)]);
         let place = (0..50).map(|_| [0.5, -0.5]);
