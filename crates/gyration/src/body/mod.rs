@@ -194,6 +194,9 @@ const RESOLUTION: f64 = 64.0 * f64::EPSILON;
 /// The same of a gap that is computed to twice the digits.
 const EXTENDED_RESOLUTION: f64 = RESOLUTION * RESOLUTION;
 
+/// From so many sizes on the distance from the origin counts among the lengths whose difference a gap is.
+const FAR: f64 = 1e3;
+
 /// The gap, relative to size and height, below which it is computed to twice the digits: eleven of sixteen are left.
 pub const NEAR: f64 = 1e-5;
 
@@ -227,9 +230,12 @@ impl Body {
         gap.is_finite() && gap > self.least_gap(field)
     }
 
-    /// The gap [m] below which its difference of two lengths leaves too few digits.
-    pub(crate) fn near_gap(&self, field: &GapField) -> f64 {
-        NEAR * (self.size + field.height.abs())
+    /// The gap [m] below which its difference of two lengths leaves too few digits: size and height, and the place where
+    /// that is far from the origin.
+    pub(crate) fn near_gap(&self, field: &GapField, position: &Vec3) -> f64 {
+        let distance = position.amax();
+        let far = if distance > FAR * self.size { distance } else { 0.0 };
+        NEAR * (self.size + field.height.abs() + far)
     }
 
     /// Whether small gaps of its surface are known to twice the digits.

@@ -39,7 +39,7 @@ pub(super) fn meet<T>(
 #[inline]
 fn gap_field(at: &MotionAt, surface: &Surface, support: &Support) -> GapField {
     let field = support.gap_field(&at.motion.placement, at.time);
-    if at.numbers.low.is_empty() || surface.is_above(&field, at.body.near_gap(&field)) {
+    if at.numbers.low.is_empty() || surface.is_above(&field, at.body.near_gap(&field, &at.motion.placement.position)) {
         return field;
     };
     extended_gap_field(at, surface, support).unwrap_or(field)
