@@ -19,8 +19,9 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Polyhedron, FileFault> {
     while let Some((index, line)) = lines.next() {
         let place = FilePlace::Line(index + 1);
         let mut line = Cow::Borrowed(line);
-        // A line that ends in a backslash goes on in the next.
-        while let Some(begun) = line.trim_end().strip_suffix('\\') {
+        // Of those that are read one that ends in a backslash goes on in the next.
+        let is_read = matches!(line.split_whitespace().next(), Some("v" | "f"));
+        while is_read && let Some(begun) = line.trim_end().strip_suffix('\\') {
             let rest = lines.next().map_or("", |(_, rest)| rest);
             line = Cow::Owned(format!("{begun} {rest}"));
         }

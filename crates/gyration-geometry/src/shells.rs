@@ -19,6 +19,8 @@ use std::fmt;
 const MOST_SHELLS: usize = 100;
 /// Triangles of two shells that are compared.
 const MOST_COMPARED: usize = 4_000_000;
+/// Triangles of one shell that are: a dozen neighbours of each of three million.
+const MOST_WITHIN: usize = 40_000_000;
 /// Points of a shell of which it is asked whether they are in another.
 const POINTS: usize = 48;
 /// How far an edge must pass through a triangle, relative to the size: shells may share faces and edges.
@@ -66,7 +68,9 @@ impl fmt::Display for Shells {
         let [x, y, z] = self.place.into();
         write!(f, " near [{x:.6}, {y:.6}, {z:.6}] m; its volume counts as {:.6e} m³, ", self.sum)?;
         match self.union {
-            None if one == other => write!(f, "each place as often as the surface is wound about it"),
+            None if one == other && self.kind == ShellFault::Crossing => {
+                write!(f, "each place as often as the surface is wound about it")
+            }
             Some(union) => write!(f, "and what it encloses is {union:.6e} m³"),
             None => {
                 let own: Vec<String> = self.own.iter().take(MOST_TOLD).map(|volume| format!("{volume:.6e}")).collect();
@@ -95,9 +99,9 @@ pub fn doubly_enclosed(mesh: &Polyhedron) -> Option<Shells> {
         Some(Shells { which: which.map(|k| k + 1), kind, place, sum, union, own: own.clone() })
     };
     let looked_at = &shells[..shells.len().min(MOST_SHELLS)];
-    for (own, shell) in looked_at.iter().enumerate() {
+    for (index, shell) in looked_at.iter().enumerate() {
         if let Some(place) = shell.crosses_itself() {
-            return told([own; 2], ShellFault::Crossing, place, None);
+            return told([index; 2], ShellFault::Crossing, place, None);
         }
     }
     // For each shell those around it.
@@ -182,11 +186,19 @@ impl<'a> Shell<'a> {
         let boxes = || corners.iter().map(|[a, b, c]| bounds(a).with(&bounds(b)).with(&bounds(c)));
         let tree = BoxTree::new(boxes().zip(0..));
         let size = self.size();
-        boxes().zip(&corners).find_map(|(bounds, one)| {
+        let mut compared = 0;
+        for (bounds, one) in boxes().zip(&corners) {
             // In no order: the place of the first in that of the file is told.
-            let through = tree.touching(&bounds).filter_map(|other| Some((other, passes(one, &corners[other], size)?)));
-            through.min_by_key(|(other, _)| *other).map(|(_, place)| place)
-        })
+            let near = tree.touching(&bounds).inspect(|_| compared += 1);
+            let through = near.filter_map(|other| Some((other, passes(one, &corners[other], size)?)));
+            if let Some((_, place)) = through.min_by_key(|(other, _)| *other) {
+                return Some(place);
+            }
+            if compared > MOST_WITHIN {
+                break;
+            }
+        }
+        None
     }
 
     /// A place where the surfaces cross: where an edge passes through a triangle, or where some of the other shell is

@@ -137,8 +137,8 @@ fn a_plane_far_from_the_origin_costs_no_digits() {
     for shape in ["sphere = { radius = 1e-3 }", "box = { size = [2e-3, 2e-3, 2e-3] }"] {
         let steps = [0.0, 1e3, 1e5].map(|height: f64| {
             let text = format!(
-                "time = {{ end = 0.1, sample = 1e-3 }}\nsupport = [{{ name = \"t\", plane = {{ origin = [0, 0, {height:?}] }} \
-                 }}]\n[[contact]]\nsupport = \"t\"\nrepulsion = {{ alpha = 100, nu = 6, d0 = 1e-5 }}\n[[body]]\n\
+                "time = {{ end = 0.1, sample = 1e-3 }}\n\
+                 support = [{{ name = \"t\", plane = {{ origin = [0, 0, {height:?}] }} }}]\n[[contact]]\nsupport = \"t\"\nrepulsion = {{ alpha = 100, nu = 6, d0 = 1e-5 }}\n[[body]]\n\
                  name = \"a\"\nshape = {{ {shape} }}\ndensity = 1000\nposition = [0, 0, {:?}]\n\
                  angular_velocity = [3, 0, 0]\n",
                 height + 0.006

@@ -55,7 +55,7 @@ fn assumptions(scene: &Scene) -> String {
         || model.solid_supports.iter().any(|support| !support.motion.is_fixed())
         || model.springs().iter().filter_map(Spring::anchor).any(|anchor| !anchor.motion.is_fixed());
     let moving = if moves { ";\nsupports and anchors that move are held where they are at t = 0" } else { "" };
-    let cells = scene.built().cell.as_ref().filter(|cell| cell.load.is_some());
+    let cells = scene.built().cell.as_ref().filter(|cell| cell.load.is_some() && cell.periodic.contains(&true));
     let vectors = cells.map_or("", |_| ", in cells whose vectors rest");
     format!("Small motions about the rest state that bodies get to from their start{vectors}{moving}\n")
 }

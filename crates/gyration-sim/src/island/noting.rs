@@ -7,7 +7,8 @@ use crate::run_state::DISSIPATION;
 use gyration::balance::{fastest_speed, kinetic_energy};
 use gyration_ode::StepReport;
 
-/// The parts of a step at which speeds are looked at besides its ends: a swing has a quarter of its period in a step.
+/// The parts of a step at which speeds are looked at besides its ends: what swings in half a period is fastest
+/// half-way.
 const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
 
 impl Island {

@@ -5,15 +5,16 @@
 //! A free body that does not turn goes straight, and a stepper that looks at the force nowhere but far from another is
 //! in no doubt. So a step ends at the time t₁ at which the centres are nearest, if what the two do to each other at the
 //! gap g₁ there matters: the last look of a step is at its end. A pair that is already about as near as it comes is
-//! seen as it is.
+//! seen as it is. Of long bodies, whose gap is least elsewhere, and of bodies in other cells of a lattice this sees
+//! less.
 
 use super::approach::Approach;
 use super::step_end::StepEnd;
 use gyration::model::Model;
 use gyration::neighbours::Pair;
 
-/// What two store where they are nearest matters if it may be more than this part of the energy of their motion past
-/// each other.
+/// What two do to each other where they are nearest matters if its work over the gap may be more than this part of the
+/// energy of their motion past each other.
 const MATTERS: f64 = 1e-9;
 /// A pair this many times as far apart as where it is nearest is not seen as it is there.
 const FARTHER: f64 = 1.5;
@@ -36,7 +37,8 @@ pub(super) fn until_nearest(model: &Model, pair: &Pair, ends: [&StepEnd; 2], gap
     let masses =
         pair.parties.map(|party| party.body().map_or(f64::INFINITY, |body| model.bodies[body].solid.mass.mass));
     let reduced = (masses[0].recip() + masses[1].recip()).recip();
-    let kinetic = 0.5 * reduced * approach.speed() * approach.speed();
-    let matters = least <= 0.0 || pair.form.most_stored(least, surfaces) > MATTERS * kinetic;
+    let speed = approach.speed();
+    let kinetic = 0.5 * reduced * speed * speed;
+    let matters = least <= 0.0 || pair.form.most_work(least, speed, surfaces) > MATTERS * kinetic;
     if matters { time } else { longest }
 }

@@ -9,6 +9,7 @@ use super::Island;
 use crate::format::significant;
 use crate::outcome::{Reason, Stop};
 use gyration::body::{Body, BodyKind};
+use gyration::kinematics::Placement;
 use gyration::model::Model;
 use gyration::shape::{Capsule, Cuboid, Cylinder, Ellipsoid, Shape, Sphere, Torus};
 use gyration::tensor::Vec3;
@@ -19,6 +20,8 @@ use gyration_ode::StepReport;
 const SHORT: f64 = 1e-5;
 /// The room that a body has is looked at where it is below this part of its size.
 const NARROW: f64 = 1e-2;
+/// Nor where it is nearer to one of them than this part of the room: a bounce is short for another reason.
+const BESIDE: f64 = 0.05;
 /// Normals whose sum is below this are opposite.
 const OPPOSITE: f64 = 1e-12;
 
@@ -37,7 +40,8 @@ impl Island {
         if span > SHORT * (end - time) || model.supports.iter().all(|support| support.motion.is_fixed()) {
             return Ok(());
         }
-        let found = (0..model.bodies.len()).find_map(|body| pressed(model, body, time, end));
+        let placement = |body: usize| &self.step_ends[body].motion.placement;
+        let found = (0..model.bodies.len()).find_map(|body| pressed(model, (body, placement(body)), time, end));
         match found.filter(|found| span < SHORT * (found.until - time)) {
             None => Ok(()),
             Some(pressed) => Err(pressed.stop(model, time)),
@@ -67,8 +71,9 @@ impl Pressed {
 }
 
 /// The two planes that leave a body no room before the end of a run, where it has next to none now.
-fn pressed(model: &Model, body: usize, time: f64, end: f64) -> Option<Pressed> {
+fn pressed(model: &Model, (body, placement): (usize, &Placement), time: f64, end: f64) -> Option<Pressed> {
     let width = least_width(&model.bodies[body])?;
+    let surface = model.bodies[body].solid.surface.as_ref()?;
     let touched = || model.contacts_of(body).map(|contact| contact.support);
     let two = touched().flat_map(|one| touched().filter(move |other| one < *other).map(move |other| [one, other]));
     two.filter_map(|supports| {
@@ -79,6 +84,10 @@ fn pressed(model: &Model, body: usize, time: f64, end: f64) -> Option<Pressed> {
         let now = room(time);
         let closing = one.motion.velocity(time).dot(&first) + other.motion.velocity(time).dot(&second);
         if !are_parallel || closing <= 0.0 || now <= 0.0 || now > NARROW * model.bodies[body].size {
+            return None;
+        }
+        let gaps = [one, other].map(|support| surface.smallest_gap(&support.gap_field(placement, time)).0);
+        if gaps[0].min(gaps[1]) < BESIDE * now {
             return None;
         }
         let until = time + now / closing;

@@ -156,7 +156,8 @@ impl Orbit {
     /// [`NoOrbit`].
     pub fn near(search: &OrbitSearch<'_>, start: &State, period: f64, choice: &Choice<'_>) -> Result<Self, NoOrbit> {
         let first = Self::about(search, start, period, choice);
-        if !matches!((&first, choice), (Err(NoOrbit::NotFound { .. }), Choice::Period | Choice::Alone)) {
+        let may_settle = matches!(choice, Choice::Period | Choice::Alone);
+        if !may_settle || !matches!(first, Err(NoOrbit::NotFound { .. })) || !search.settles(start, period)? {
             return first;
         }
         let mut start = start.clone();
@@ -265,13 +266,23 @@ impl OrbitSearch<'_> {
         self.shift.as_ref().map_or_else(|| state.clone(), |shift| shift.back(state))
     }
 
+    /// Whether a motion is driven, or loses energy within a period.
+    fn settles(&self, start: &State, period: f64) -> Result<bool, NoOrbit> {
+        if self.model.is_driven() {
+            return Ok(true);
+        }
+        let Some(later) = self.after(start, period) else { return Ok(false) };
+        let [(before, kinetic), (after, later)] =
+            [seen(self.model, start)?, seen(self.model, &later)?].map(|[total, kinetic]| (total, kinetic));
+        Ok((before - after).abs() > KEPT * kinetic.max(later))
+    }
+
     /// The state of a run after a time \[s\], as one to begin with; none where the run ends before.
     fn after(&self, start: &State, time: f64) -> Option<State> {
-        let mut last = None;
-        let ended = each_state(self.model, start, &RunPlan { end: time, ..*self.plan }, |state| {
-            last = Some(State { time: 0.0, ..state.clone() });
-        });
-        ended.ok().and(last)
+        let mut last = start.clone();
+        let ended = each_state(self.model, start, &RunPlan { end: time, ..*self.plan }, |state| last.clone_from(state));
+        last.time = 0.0;
+        ended.ok().map(|()| last)
     }
 
     /// Whether rates along a motion are others at another time: supports that go on or turn change more than the

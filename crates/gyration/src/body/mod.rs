@@ -230,8 +230,8 @@ impl Body {
         gap.is_finite() && gap > self.least_gap(field)
     }
 
-    /// The gap [m] below which its difference of two lengths leaves too few digits: size and height, and the place where
-    /// that is far from the origin.
+    /// The gap [m] below which its difference of two lengths leaves too few digits: size and height, and the place
+    /// where that is far from the origin.
     pub(crate) fn near_gap(&self, field: &GapField, position: &Vec3) -> f64 {
         let distance = position.amax();
         let far = if distance > FAR * self.size { distance } else { 0.0 };

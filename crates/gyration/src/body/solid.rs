@@ -43,7 +43,9 @@ impl Solid {
     fn of(shape: Shape, mass: MassProperties, surface: Option<Surface>, parts: Vec<Surface>) -> Self {
         let mut this = Self { shape, mass, surface, parts, radii: Vec::new(), girths: Vec::new() };
         this.radii = (0..this.count_parts()).map(|part| this.part(part).radius()).collect();
-        let girth = |(part, radius): (usize, &f64)| radius + this.part(part).area_center().norm().min(*radius);
+        let off =
+            |part: usize, radius: f64| this.part(part).area_center().map_or(radius, |middle| middle.norm().min(radius));
+        let girth = |(part, radius): (usize, &f64)| radius + off(part, *radius);
         this.girths = this.radii.iter().enumerate().map(girth).collect();
         this
     }
@@ -61,8 +63,8 @@ impl Solid {
         self.radii[index]
     }
 
-    /// A bound of the radius of a part about the middle of its area [m]: behind a plane that touches it, its points are
-    /// no farther off in the mean.
+    /// A bound of the radius of a part about the middle of its area [m]: the mean distance of its points from a plane
+    /// that touches it is no larger.
     ///
     /// # Panics
     /// If there is no such part.

@@ -6,6 +6,7 @@ use super::fault::PairFault;
 use super::laws::{PairLaws, shares};
 use super::reach::Threshold;
 use super::side::Side;
+use crate::contact::{Action, Term};
 use crate::surface::Surface;
 use std::sync::Arc;
 
@@ -83,9 +84,16 @@ impl PairForm {
         Some(5.0 * self.threshold / steep)
     }
 
-    /// U_m [J]: no pair of such surfaces stores more at a gap [m].
-    pub fn most_stored(&self, gap: f64, surfaces: [&Surface; 2]) -> f64 {
-        self.laws.most(gap, surfaces.map(Surface::area))
+    /// What two such surfaces may do to each other at a gap [m] while they pass one another with a speed [m/s]: a bound
+    /// of the work over the gap of all their laws [J], Σ c d^(1−ν) S, viscous ones times the speed.
+    pub fn most_work(&self, gap: f64, speed: f64, surfaces: [&Surface; 2]) -> f64 {
+        let [one, other] = surfaces.map(Surface::area);
+        let terms = self.laws.laws().iter().flat_map(|law| law.terms().into_iter().flatten());
+        let traction = |term: Term| {
+            let factor = if matches!(term.action, Action::Central) { 1.0 } else { speed };
+            term.coefficient.abs() * factor * libm::pow(gap, 1.0 - term.exponent)
+        };
+        one.min(other) * terms.map(traction).sum::<f64>()
     }
 
     /// The slab between two rigid balls whose centres have a distance [m]; none of other shapes.

@@ -147,15 +147,13 @@ impl Surface {
         Ok(())
     }
 
-    /// The middle of its area, ∫ X dA/∫ dA [m].
-    pub fn area_center(&self) -> Vec3 {
+    /// The middle of its area, ∫ X dA/∫ dA [m]; none without one.
+    pub fn area_center(&self) -> Option<Vec3> {
         let mut found = [Moments::default()];
         let request = MomentRequest { kernel: Kernel::Power(0.0), order: 1 };
         // Of a gap of one everywhere.
-        match self.moments(&GapField::new(1.0, Vec3::zeros()), &[request], &mut found) {
-            Ok(()) if found[0].zeroth > 0.0 => found[0].first / found[0].zeroth,
-            _ => Vec3::zeros(),
-        }
+        self.moments(&GapField::new(1.0, Vec3::zeros()), &[request], &mut found).ok()?;
+        (found[0].zeroth > 0.0).then(|| found[0].first / found[0].zeroth)
     }
 
     /// The moments of a ball about the origin of X, set in the entries of `out`: arguments as for

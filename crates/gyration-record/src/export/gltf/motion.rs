@@ -2,13 +2,13 @@
 //!
 //! 60 keys a second, or 300 in all if that is more, are samples. Between keys a player interpolates translation,
 //! rotations and scales by themselves. What it shows is compared with the samples that are left out: where one is
-//! missed further than the eye can see, because a body turns fast or its axes of stretch do, the interval is halved by
-//! one of them. Where none is left out the outcome half-way is compared with the natural mean of the two placements of
-//! a body that deforms, and a key put in at that mean.
+//! missed further than the eye can see, because a body turns or strains fast, or goes to and fro, the interval is
+//! halved by one of them. Where none is left out the outcome half-way is compared with the natural mean of the two
+//! placements of a body that deforms, and a key put in at that mean.
 
 use super::factors::{GradientFactors, natural_mean};
 use crate::error::RecordError;
-use crate::export::drawing::{Drawing, DrawnMotion, Mat3, Vec3};
+use crate::export::drawing::{Drawing, DrawnBody, DrawnMotion, Mat3, Vec3};
 use crate::recording::Recording;
 
 /// Keys a second that the eye asks for.
@@ -19,7 +19,7 @@ const SHORT_MOTION: f64 = 300.0;
 const ALL_KEYS: f64 = 2e6;
 /// By how much P may be missed half-way, relative to itself.
 const MISSED: f64 = 1e-3;
-/// By how much P may be missed at samples that are left out, relative to itself.
+/// By how much P may be missed at samples that are left out, relative to itself, and p₀, relative to the size.
 const LEFT_OUT: f64 = 1e-2;
 /// Keys of a support in a period of its motion: a straight line misses a circle by half a hundredth of its radius.
 const KEYS_A_PERIOD: f64 = 32.0;
@@ -61,6 +61,10 @@ struct Follower {
     way: Vec<Pose>,
     /// How often an interval without samples may be halved.
     halvings: usize,
+    /// The size of the body \[m\].
+    size: f64,
+    /// So many keys it has at most besides those that it has in any case.
+    room: usize,
 }
 
 /// The samples that become keys.
@@ -106,7 +110,9 @@ pub(super) fn carried_keys(motion: &DrawnMotion, times: &[f64]) -> Vec<f64> {
 /// `Corrupt` where det P ≤ 0 or a number is missing; those of reading.
 pub(super) fn tracks(recording: &Recording, drawing: &Drawing, keys: &[usize]) -> Result<Vec<Track>, RecordError> {
     let bodies = drawing.bodies.len();
-    let mut followers: Vec<Follower> = drawing.bodies.iter().map(|body| Follower::new(body.is_rigid())).collect();
+    let room = (ALL_KEYS / bodies.max(1) as f64) as usize;
+    let follower = |body: &DrawnBody| Follower::new(body.is_rigid(), body.size, room);
+    let mut followers: Vec<Follower> = drawing.bodies.iter().map(follower).collect();
     let mut due = keys.iter().copied().peekable();
     for chunk in recording.chunks() {
         let times = recording.read_rows("time", chunk.clone())?.data;
@@ -146,16 +152,16 @@ impl Track {
     /// The same with those alone that are said to be keys, and that are needed.
     #[cfg(test)]
     pub fn thinned(poses: &[Pose], is_rigid: bool, is_key: impl Fn(usize) -> bool) -> Result<Self, f64> {
-        let mut follower = Follower::new(is_rigid);
+        let mut follower = Follower::new(is_rigid, 1.0, usize::MAX);
         poses.iter().enumerate().try_for_each(|(k, pose)| follower.see(*pose, is_key(k)))?;
         Ok(follower.track)
     }
 }
 
 impl Follower {
-    fn new(is_rigid: bool) -> Self {
+    fn new(is_rigid: bool, size: f64, room: usize) -> Self {
         let halvings = if is_rigid { 0 } else { HALVINGS };
-        Self { track: Track::default(), last: None, way: Vec::new(), halvings }
+        Self { track: Track::default(), last: None, way: Vec::new(), halvings, size, room }
     }
 
     /// Takes the next sample; an error is the time at which P is no placement.
@@ -182,11 +188,14 @@ impl Follower {
         let next = last.follow(&to.gradient)?;
         if let Some(from) = self.last.filter(|from| are_apart(from.time, to.time)) {
             let missed = |sample: &Pose| {
-                let shown = last.between(&next, (sample.time - from.time) / (to.time - from.time)).product();
+                let part = (sample.time - from.time) / (to.time - from.time);
+                let place = from.position + part * (to.position - from.position);
+                let shown = last.between(&next, part).product();
                 (shown - sample.gradient).norm() > LEFT_OUT * sample.gradient.norm()
+                    || (place - sample.position).norm() > LEFT_OUT * self.size
             };
             let middle = left_out.len() / 2;
-            if left_out.iter().any(missed) {
+            if self.track.times.len() < self.room && left_out.iter().any(missed) {
                 self.approach(&way[..=middle], halvings)?;
                 return self.approach(&way[middle + 1..], halvings);
             }
@@ -201,6 +210,13 @@ impl Follower {
                     return self.approach(way, halvings - 1);
                 }
             }
+        }
+        // Times that a file cannot tell apart are one.
+        if self.track.times.last().is_some_and(|time| *time as f32 >= to.time as f32) {
+            self.track.times.pop();
+            self.track.positions.pop();
+            self.track.factors.pop();
+            self.track.samples = self.track.samples.saturating_sub(1);
         }
         self.track.times.push(to.time);
         self.track.positions.push(to.position);

@@ -5,6 +5,9 @@ use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::CellBlock;
 use std::fmt;
 
+/// Bodies that are as near to a plane, in cells, lie in it.
+const ROUNDING: f64 = 1e-9;
+
 /// A frame's cell, of bodies that follow one another without end in some direction.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FrameCell {
@@ -35,11 +38,14 @@ impl FrameCell {
         }
         let (mut edges, mut origin) = (along, Vec3::zeros());
         for a in 0..3 {
-            let (from, wide) = match high[a] - low[a] {
-                _ if periodic[a] => (0.0, f64::from(cells.repeat[a])),
+            let wide = high[a] - low[a];
+            let (from, wide) = if periodic[a] {
+                (0.0, f64::from(cells.repeat[a]))
+            } else if wide > ROUNDING * (1.0 + low[a].abs()) {
+                (low[a], wide)
+            } else {
                 // Points in a plane, or on a line, fill no cell: it is one unit wide about them.
-                0.0 => (low[a] - 0.5, 1.0),
-                wide => (low[a], wide),
+                (low[a] + 0.5 * (wide - 1.0), 1.0)
             };
             origin += from * along.column(a);
             edges.set_column(a, &(wide * along.column(a)));

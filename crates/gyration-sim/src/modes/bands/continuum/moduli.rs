@@ -80,8 +80,8 @@ pub(super) fn of_waves(waves: &Tensor, span: &Span) -> Tensor {
     })
 }
 
-/// The largest |C_iajb − C_jbia| in the span as a part of the largest modulus: what a stress leaves. That of i and a is
-/// in what C is made of B by.
+/// The largest |C_iajb − C_jbia| in the span as a part of the largest modulus: what a stress leaves. C_iajb = C_aijb
+/// holds by the formula.
 pub(super) fn asymmetry(waves: &Tensor, span: &Span) -> f64 {
     let inside = of_waves(&within(waves, span), span);
     let uneven = tensor(|i, a, j, b| inside[i][a][j][b] - inside[j][b][i][a]);
