@@ -200,6 +200,7 @@ fn long_recordings_are_thinned() {
     let animation = Animation::open(&sandbox.path("ball.glb"));
     let ball = animation.node("ball").index();
     let (times, _) = animation.keys(ball, gltf::animation::Property::Translation).unwrap();
-    assert!((290..=301).contains(&times.len()), "{}", times.len());
+    // 300 of 6,001, and a few where it bounces between two of them.
+    assert!((290..=320).contains(&times.len()), "{}", times.len());
     assert!((times[times.len() - 1] - 0.6).abs() < 1e-7 && times[0] == 0.0);
 }
