@@ -74,16 +74,6 @@ impl GradientFactors {
             inner: turned_on(&self.inner, &to.inner, part),
         }
     }
-
-    /// What a player of the animation shows half-way between two keys: spherical means of rotations, the mean of
-    /// scales.
-    pub fn half_way(&self, to: &Self) -> Self {
-        Self {
-            outer: half_way(&self.outer, &to.outer),
-            stretches: 0.5 * (self.stretches + to.stretches),
-            inner: half_way(&self.inner, &to.inner),
-        }
-    }
 }
 
 /// Half-way between two placement gradients: their rotations turned half-way, their stretches √(PᵀP) averaged.
@@ -94,7 +84,7 @@ pub(super) fn natural_mean(p: &Mat3, q: &Mat3) -> Option<Mat3> {
         Some((turn, turn.to_rotation_matrix().into_inner().transpose() * gradient))
     });
     let ((turn_a, stretch_a), (turn_b, stretch_b)) = (a?, b?);
-    Some(half_way(&turn_a, &turn_b).to_rotation_matrix().into_inner() * (0.5 * (stretch_a + stretch_b)))
+    Some(turned_on(&turn_a, &turn_b, 0.5).to_rotation_matrix().into_inner() * (0.5 * (stretch_a + stretch_b)))
 }
 
 /// One rotation of Jacobi's in the plane (i, j), if it is worth one.
@@ -127,11 +117,6 @@ fn rotation(matrix: &Mat3) -> UnitQuaternion<f64> {
 /// The quaternion of the two that mean the same rotation that lies nearer.
 pub(super) fn nearest_sign(q: UnitQuaternion<f64>, last: &UnitQuaternion<f64>) -> UnitQuaternion<f64> {
     if q.coords.dot(&last.coords) < 0.0 { UnitQuaternion::new_unchecked(-q.into_inner()) } else { q }
-}
-
-/// The spherical mean, on the shorter way.
-fn half_way(a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>) -> UnitQuaternion<f64> {
-    UnitQuaternion::new_normalize(a.into_inner() + nearest_sign(*b, a).into_inner())
 }
 
 /// Spherical interpolation, on the shorter way.

@@ -201,7 +201,7 @@ impl Follower {
             }
             if left_out.is_empty() && halvings > 0 {
                 let mean = natural_mean(&from.gradient, &to.gradient)?;
-                if (last.half_way(&next).product() - mean).norm() > MISSED * mean.norm() {
+                if (last.between(&next, 0.5).product() - mean).norm() > MISSED * mean.norm() {
                     let time = 0.5 * (from.time + to.time);
                     let middle = Pose { time, position: 0.5 * (from.position + to.position), gradient: mean };
                     self.approach(&[middle], halvings - 1)?;
