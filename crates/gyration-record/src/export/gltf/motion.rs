@@ -53,8 +53,8 @@ pub(super) struct Track {
 }
 
 /// The track of a body, sample by sample.
-struct Follower {
-    track: Track,
+pub(super) struct Follower {
+    pub(super) track: Track,
     /// The last key.
     last: Option<Pose>,
     /// The samples since then.
@@ -142,30 +142,15 @@ pub(super) fn tracks(recording: &Recording, drawing: &Drawing, keys: &[usize]) -
     Ok(followers.into_iter().map(|follower| follower.track).collect())
 }
 
-impl Track {
-    /// Follows the poses of a body, of which each is a key; an error is the time at which P is no placement.
-    #[cfg(test)]
-    pub fn of(poses: &[Pose], is_rigid: bool) -> Result<Self, f64> {
-        Self::thinned(poses, is_rigid, |_| true)
-    }
-
-    /// The same with those alone that are said to be keys, and that are needed.
-    #[cfg(test)]
-    pub fn thinned(poses: &[Pose], is_rigid: bool, is_key: impl Fn(usize) -> bool) -> Result<Self, f64> {
-        let mut follower = Follower::new(is_rigid, 1.0, usize::MAX);
-        poses.iter().enumerate().try_for_each(|(k, pose)| follower.see(*pose, is_key(k)))?;
-        Ok(follower.track)
-    }
-}
-
 impl Follower {
-    fn new(is_rigid: bool, size: f64, room: usize) -> Self {
+    /// Of a body of this size \[m\], with room for so many keys.
+    pub fn new(is_rigid: bool, size: f64, room: usize) -> Self {
         let halvings = if is_rigid { 0 } else { HALVINGS };
         Self { track: Track::default(), last: None, way: Vec::new(), halvings, size, room }
     }
 
     /// Takes the next sample; an error is the time at which P is no placement.
-    fn see(&mut self, pose: Pose, is_key: bool) -> Result<(), f64> {
+    pub fn see(&mut self, pose: Pose, is_key: bool) -> Result<(), f64> {
         let determinant = pose.gradient.determinant();
         if !pose.position.iter().all(|x| x.is_finite()) || determinant.is_nan() || determinant <= 0.0 {
             return Err(pose.time);

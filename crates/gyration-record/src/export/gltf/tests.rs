@@ -1,7 +1,7 @@
 //! The factors of P: exact at every key, near the natural mean between, and never spinning.
 
 use super::factors::natural_mean;
-use super::motion::{Pose, Track, carried_keys, keys};
+use super::motion::{Follower, Pose, Track, carried_keys, keys};
 use crate::export::drawing::{DrawnMotion, Mat3, Vec3};
 use nalgebra::Rotation3;
 
@@ -17,6 +17,18 @@ fn poses(count: usize, gradient: impl Fn(f64) -> Mat3) -> Vec<Pose> {
     (0..count).map(pose).collect()
 }
 
+/// The track of poses, of which each is a key.
+fn followed(poses: &[Pose], is_rigid: bool) -> Result<Track, f64> {
+    thinned(poses, is_rigid, |_| true)
+}
+
+/// The same with those alone that are said to be keys, and that are needed.
+fn thinned(poses: &[Pose], is_rigid: bool, is_key: impl Fn(usize) -> bool) -> Result<Track, f64> {
+    let mut follower = Follower::new(is_rigid, 1.0, usize::MAX);
+    poses.iter().enumerate().try_for_each(|(k, pose)| follower.see(*pose, is_key(k)))?;
+    Ok(follower.track)
+}
+
 /// What a player shows at a time.
 fn shown(track: &Track, time: f64) -> Mat3 {
     let after = track.times.iter().position(|key| *key >= time).unwrap();
@@ -30,7 +42,7 @@ fn shown(track: &Track, time: f64) -> Mat3 {
 
 /// Checks a track at its keys, half-way between the poses, and that nothing spins.
 fn check(name: &str, poses: &[Pose]) -> Track {
-    let track = Track::of(poses, false).unwrap();
+    let track = followed(poses, false).unwrap();
     let mut missed = [0.0_f64; 2];
     for pose in poses {
         let at = track.times.iter().position(|time| *time == pose.time).unwrap();
@@ -114,7 +126,7 @@ fn needles_and_plates_are_met() {
 #[test]
 fn a_body_turned_inside_out_is_told() {
     let poses = poses(3, |t| Mat3::from_diagonal(&Vec3::new(1.0, 1.0, 1.0 - 2.0 * t)));
-    assert_eq!(Track::of(&poses, false), Err(0.5));
+    assert_eq!(followed(&poses, false), Err(0.5));
 }
 
 #[test]
@@ -148,7 +160,7 @@ fn what_turns_fast_or_strains_fast_keeps_the_samples_that_it_needs() {
         ("slow", &slow, true, 60, 62),
     ] {
         let poses = poses(1001, gradient);
-        let track = Track::thinned(&poses, is_rigid, |k| k % 17 == 0 || k == 1000).unwrap();
+        let track = thinned(&poses, is_rigid, |k| k % 17 == 0 || k == 1000).unwrap();
         let missed = poses.iter().map(|pose| (shown(&track, pose.time) - pose.gradient).norm() / pose.gradient.norm());
         let missed = missed.fold(0.0, f64::max);
         println!("{name}: {} keys, {} of them samples, missed by {missed:.1e}", track.times.len(), track.samples);
