@@ -206,3 +206,21 @@ fn supports_have_keys_of_their_own_where_they_move_fast() {
     assert_eq!(carried_keys(&slow, &times), times);
     assert_eq!(carried_keys(&slow, &[]), [0.0; 0]);
 }
+
+/// A body that is shaken at 59 Hz, with 60 keys a second: it would seem to swing once a second.
+#[test]
+fn what_goes_to_and_fro_between_keys_keeps_the_samples_that_it_needs() {
+    let mut poses = poses(1001, |_| Mat3::identity());
+    poses.iter_mut().for_each(|pose| pose.position.z = 0.2 * (std::f64::consts::TAU * 59.0 * pose.time).sin());
+    let track = thinned(&poses, true, |k| k % 17 == 0 || k == 1000).unwrap();
+    let place = |time: f64| {
+        let after = track.times.iter().position(|key| *key >= time).unwrap();
+        let before = after.saturating_sub(1);
+        let span = track.times[after] - track.times[before];
+        let part = if span > 0.0 { (time - track.times[before]) / span } else { 1.0 };
+        track.positions[before].lerp(&track.positions[after], part)
+    };
+    let missed = poses.iter().map(|pose| (place(pose.time) - pose.position).norm()).fold(0.0, f64::max);
+    println!("{} keys, missed by {missed:.1e} of the size", track.times.len());
+    assert!(missed <= 1e-2 && track.times.len() > 400, "{missed:e}, {} keys", track.times.len());
+}
