@@ -50,3 +50,21 @@ fn balls_that_fly_straight_past_one_another_are_deflected() {
         }
     }
 }
+
+/// A ball that flies past the image of another, some cells to either side of it: as it flies past the other itself.
+#[test]
+fn balls_that_fly_past_images_are_deflected() {
+    let beside = 0.10005;
+    let contact = "[[contact]]\nbetween = [\"a\", \"b\"]\n";
+    let finest = across(0.3, beside, &format!("solver = {{ max_step = 1e-3 }}\n{contact}"), false);
+    for (start, cell) in [(0.31, -3.0), (0.77, 3.0), (1.3, 2.0)] {
+        // One that flies out of reach of all images but one, since cells are five metres long.
+        let found = across(
+            start,
+            beside + 5.0 * cell,
+            &format!("lattice = {{ cell = [[0, 5, 0]], repeat = [3, 1, 1] }}\n{contact}reach = 0.3"),
+            false,
+        );
+        assert!((found / finest - 1.0).abs() < 2e-3, "{start} {cell}: {found:e} {finest:e}");
+    }
+}

@@ -90,9 +90,13 @@ pub(crate) fn horizon(
             }
             _ => None,
         };
+        let image;
         let both = match (&seen, pair.bodies()) {
             (Some((SeenFromSupport { body, .. }, support)), _) => [body, support],
-            (None, Some(bodies)) => bodies.map(|body| &ends[body]),
+            (None, Some([one, other])) => {
+                image = ends[other].farther(&model.lattice.place(pair.cell));
+                [&ends[one], &image]
+            }
             (None, None) => continue,
         };
         let bend = seen.map_or(0.0, |(seen, _)| seen.bend);

@@ -5,8 +5,7 @@
 //! A free body that does not turn goes straight, and a stepper that looks at the force nowhere but far from another is
 //! in no doubt. So a step ends at the time t₁ at which the centres are nearest, if what the two do to each other at the
 //! gap g₁ there matters: the last look of a step is at its end. A pair that is already about as near as it comes is
-//! seen as it is. Of long bodies, whose gap is least elsewhere, and of bodies in other cells of a lattice this sees
-//! less.
+//! seen as it is. Of long bodies, whose gap is least elsewhere, this sees less.
 
 use super::approach::Approach;
 use super::step_end::StepEnd;

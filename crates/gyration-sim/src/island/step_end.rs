@@ -48,6 +48,12 @@ impl StepEnd {
         Self { motion, acceleration, stretching }
     }
 
+    /// The same of its image so much farther on [m].
+    pub fn farther(mut self, way: &Vec3) -> Self {
+        self.motion.placement.position += way;
+        self
+    }
+
     /// |f| of the contacts [N]; none where a pin, a guide or another load takes a part of the weight.
     pub fn contact_force(&self, model: &Model, index: usize) -> Option<f64> {
         let body = &model.bodies[index];
