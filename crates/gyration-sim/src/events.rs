@@ -6,9 +6,9 @@
 //! | closest approach | rate of the smallest gap, n·(ṗ(X_c) − support's velocity) | − → + |
 //! | lift-off         | |contact force| − 1 % of the weight (or of m v²/size)      | + → − |
 //!
-//! An event is found by a change of sign between the quarters of a step, a lift-off between its ends, and located on
-//! the dense output. Speeds below 1e-6 of the body's speed scale are taken for rest: a body that has settled gives no
-//! events, and one that passes through rest keeps the sign that it had before. Two events of one kind within a quarter
+//! An event is found by a change of sign between the quarters of a step, or finer parts where a body turns far, a
+//! lift-off between its ends, and located on the dense output. Speeds below 1e-6 of the body's speed scale are taken for rest: a body that has settled gives no
+//! events, and one that passes through rest keeps the sign that it had before. Two events of one kind within such a part
 //! of a step cancel and go unseen; so does a touch within one step, which the error control resolves into several steps
 //! unless its force does not matter. A body without inertia is carried, not thrown: it has no events. A pinned body has
 //! no apex: its centre goes round the pin.

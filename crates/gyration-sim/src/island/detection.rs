@@ -1,7 +1,7 @@
 //! Detects the events of a step.
 //!
-//! The signals are looked at on the quarters of the step, on its interpolant, which costs no evaluation of the rates.
-//! Where one changes its sign from a significant value to another, the crossing is closed in. Neither the steps nor the
+//! The signals are looked at on the quarters of the step, and on more parts where a body that is no ball turns by more
+//! than half a right angle, on its interpolant, which costs no evaluation of the rates. Where one changes its sign from a significant value to another, the crossing is closed in. Neither the steps nor the
 //! samples have a part in this.
 
 use crate::adapter::ModelSystem;
@@ -15,8 +15,11 @@ use gyration::instant::PairGaps;
 use gyration::state::{BodyMotion, State};
 use gyration_ode::{CrossingDirection, StepReport, find_crossing};
 
-/// On how many parts of a step an event is looked for.
+/// On how many parts of a step an event is looked for, at least.
 const PARTS: usize = 4;
+/// By how much a body that is no ball turns in a part of a step at most [rad]: an edge of a box five times as wide as
+/// it is high is down for twice as long before its face lies flat.
+const TURN: f64 = std::f64::consts::PI / 16.0;
 
 impl Island {
     /// The signals of a body after the last step, once the forces there are known.
@@ -71,9 +74,10 @@ impl Island {
         let before = self.events.len();
         self.since.clear();
         self.since.resize(self.step_ends.len(), [report.start; 3]);
-        for part in 1..=PARTS {
-            let time = part_of(report, part);
-            if part < PARTS {
+        let parts = self.count_parts(report);
+        for part in 1..=parts {
+            let time = part_of(report, (part, parts));
+            if part < parts {
                 let State { bodies, low, works, .. } = &mut self.sampled;
                 self.integrator.interpolate_extended(time, bodies, works, Some(low));
                 self.find_signals_within(time);
@@ -86,6 +90,13 @@ impl Island {
             }
         }
         self.events[before..].sort_by(|a, b| a.event.time.total_cmp(&b.event.time));
+    }
+
+    /// On how many parts of the last step its events are looked for.
+    fn count_parts(&self, report: &StepReport) -> usize {
+        let bodies = self.model().bodies.iter().zip(&self.step_ends).filter(|(body, _)| !body.solid.is_ball());
+        let spin = bodies.map(|(_, end)| end.motion.angular_velocity().norm()).fold(0.0, f64::max);
+        PARTS.max((spin * (report.end - report.start) / TURN).ceil() as usize)
     }
 
     /// The signals of all bodies at the end of the step.
@@ -171,10 +182,10 @@ fn motion_signals(
     [events::apex(model, body, motion, speed), events::approach(model, time, body, (motion, gaps), speed)]
 }
 
-/// The end of a part of a step [s].
-fn part_of(report: &StepReport, part: usize) -> f64 {
-    if part == PARTS {
+/// The end of one of so many parts of a step [s].
+fn part_of(report: &StepReport, (part, parts): (usize, usize)) -> f64 {
+    if part == parts {
         return report.end;
     }
-    report.start + (report.end - report.start) * (part as f64 / PARTS as f64)
+    report.start + (report.end - report.start) * (part as f64 / parts as f64)
 }

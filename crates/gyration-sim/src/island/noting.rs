@@ -5,7 +5,9 @@ use crate::island::step_end::StepEnd;
 use crate::plan::RunPlan;
 use crate::run_state::DISSIPATION;
 use gyration::balance::{fastest_speed, kinetic_energy};
-use gyration_ode::StepReport;
+use gyration::model::Model;
+use gyration::state::BodyMotion;
+use gyration_ode::{CrossingDirection, StepReport, find_crossing};
 
 /// The parts of a step at which speeds are looked at besides its ends: what swings in half a period is fastest
 /// half-way.
@@ -39,23 +41,47 @@ impl Island {
             && bodies.into_iter().all(|(body, end)| fastest_speed(body, &end.motion) < rest.speed)
     }
 
-    /// Notes since when all bodies have been slow, after a step: at its end, and, where they are slow at both, within.
+    /// Notes since when all bodies have been slow, after a step at whose end they are, or that they are not.
     pub fn note_rest(&mut self, plan: &RunPlan, step: &StepReport) {
         if !self.is_slow(plan) {
             self.state.slow_since = f64::NAN;
-        } else if self.state.slow_since.is_nan() || self.is_fast_within(plan, step) {
-            self.state.slow_since = step.end;
+            return;
         }
+        let was_slow = self.state.slow_since.is_finite();
+        if self.model().bodies.iter().any(|body| !body.has_inertia()) {
+            // Their speeds are rates, which are known at the ends of steps.
+            self.state.slow_since = if was_slow { self.state.slow_since } else { step.end };
+            return;
+        }
+        let looks = LOOKS.map(|part| step.start + part * (step.end - step.start));
+        let fast = looks.iter().rposition(|time| self.excess_speed(plan, *time) >= 0.0);
+        let (from, until) = match fast {
+            Some(last) => (looks[last], looks.get(last + 1).copied().unwrap_or(step.end)),
+            None if was_slow => return,
+            None => (step.start, looks[0]),
+        };
+        self.state.slow_since = self.slowed_down(plan, (from, until)).unwrap_or(until);
     }
 
-    /// Whether a body is as fast as the speed of rest at a quarter, at half or at three quarters of the last step.
-    fn is_fast_within(&mut self, plan: &RunPlan, step: &StepReport) -> bool {
-        let Some(rest) = plan.stop_at_rest else { return false };
-        LOOKS.iter().any(|part| {
-            self.sample(step.start + part * (step.end - step.start));
-            let model = self.system.model();
-            let motion = |body: usize| self.sampled.motion(model, body);
-            (0..model.bodies.len()).any(|body| fastest_speed(&model.bodies[body], &motion(body)) >= rest.speed)
-        })
+    /// By how much the fastest material point of all is faster than the speed of rest, at a time within the last step
+    /// [m/s].
+    fn excess_speed(&mut self, plan: &RunPlan, time: f64) -> f64 {
+        self.sample(time);
+        excess_speed(plan, self.system.model(), &self.sampled.bodies)
     }
+
+    /// When the last of all bodies gets slow between two times of the last step [s].
+    fn slowed_down(&mut self, plan: &RunPlan, times: (f64, f64)) -> Option<f64> {
+        let Self { system, integrator, .. } = self;
+        let excess = |_: f64, bodies: &[f64], _: &[f64]| excess_speed(plan, system.model(), bodies);
+        find_crossing(integrator, times, excess, CrossingDirection::Falling, 1)
+    }
+}
+
+/// By how much the fastest material point of all bodies is faster than the speed of rest [m/s].
+fn excess_speed(plan: &RunPlan, model: &Model, state: &[f64]) -> f64 {
+    let slow = plan.stop_at_rest.map_or(f64::INFINITY, |rest| rest.speed);
+    let motion = |index: usize| BodyMotion::read(&model.bodies[index], model.slots(index), state);
+    let speed = |index: usize| fastest_speed(&model.bodies[index], &motion(index));
+    (0..model.bodies.len()).map(speed).fold(0.0, f64::max) - slow
 }

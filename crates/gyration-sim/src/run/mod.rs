@@ -326,6 +326,11 @@ impl Simulation {
         all.is_finite().then_some(all + hold)
     }
 
+    /// Until when the run is known, and goes on [s]: behind the time of rest there are neither samples nor events.
+    fn last_time(&self) -> f64 {
+        self.rest().map_or(self.state.time, |rest| rest.min(self.state.time))
+    }
+
     /// Ends with the last row, if there is one.
     fn stop(&mut self, stop: Stop, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
         if self.is_whole() && !is_asked(&stop) {

@@ -36,8 +36,7 @@ impl Simulation {
 
     /// Records the samples up to the time of the run, and the end; a sample outside the model is a stop.
     pub(super) fn sample_window(&mut self, sink: &mut dyn Sink) -> Result<Result<(), Stop>, RunError> {
-        // Behind the time of rest there are none.
-        let last = self.rest().map_or(self.state.time, |rest| rest.min(self.state.time));
+        let last = self.last_time();
         if let Err(stop) = self.sample_until(last, sink)? {
             return Ok(Err(stop));
         }

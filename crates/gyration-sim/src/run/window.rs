@@ -297,7 +297,7 @@ impl Simulation {
     fn hand_on_events(&mut self, before: f64, sink: &mut dyn Sink) -> Result<(), RunError> {
         let mut found = std::mem::take(&mut self.found);
         found.clear();
-        let time = self.state.time;
+        let time = self.last_time();
         for island in self.partition.islands.iter_mut() {
             let known = island.events.partition_point(|found| found.event.time <= time);
             found.extend(island.events.drain(..known));
