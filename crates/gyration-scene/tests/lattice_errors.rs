@@ -42,6 +42,21 @@ fn errors_of_a_lattice_stand_at_their_place() {
         (format!("{CHAIN}repeat = [4, §2, 1]"), "lattice.repeat.1", "no cell vector 2", "write 1"),
         (format!("{CHAIN}§period = true"), "lattice.period", "unknown key", "`periodic`"),
         (format!("{CHAIN}{}", spring("cell = [1, §1, 0]")), "spring.0.cell.1", "has 1 cell vectors", "write 0"),
+        (
+            format!("{CHAIN}relax = [\"cell\"]\npressure = §\"1 kPa\""),
+            "lattice.pressure",
+            "of a chain this is a force",
+            "\"3 N\"",
+        ),
+        (
+            format!(
+                "{CHAIN}[[bond]]\nbetween = [\"a\", \"a\"]\ncell = [1, 0, 0]\n\
+                 stiffness = [\"1 N/m\", \"1 N/mm\", 1, \"1 N m\", §\"1 N/m\", 1]"
+            ),
+            "bond.0.stiffness.4",
+            "this is a torque",
+            "\"0.1 N m\"",
+        ),
         (format!("{CHAIN}pressure = §1"), "lattice.pressure", "stay as they are written", "relax"),
         (
             format!("{CHAIN}relax = [\"cell\"]\nstress = §[[0, 1, 0], [0, 0, 0], [0, 0, 0]]"),
@@ -113,4 +128,32 @@ fn a_spring_of_a_body_with_itself_needs_another_cell() {
 fn gravity_needs_something_that_holds_a_lattice() {
     let text = format!("{TIME}[world]\ngravity = §[0, 0, -9.81]\n{POINT}{CHAIN}");
     assert_error(&text, "world.gravity", "nothing holds them", "gravity = [0, 0, 0]");
+}
+
+/// What is written with units is what is written in SI.
+#[test]
+fn stresses_and_stiffnesses_have_units() {
+    let scene = |stress: &str, stiffness: &str, damping: &str| {
+        let text = format!(
+            "{TIME}{WEIGHTLESS}[lattice]\ncell = [[1, 0, 0], [0, 1, 0]]\nrelax = [\"cell\"]\n{stress}\n{POINT}\
+             [[bond]]\nbetween = [\"a\", \"a\"]\ncell = [1, 0, 0]\nstiffness = {stiffness}\ndamping = {damping}\n"
+        );
+        Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"))
+    };
+    let rows = |zero: &str, entries: [&str; 6]| {
+        let row = |i: usize| (0..6).map(|j| if i == j { entries[i] } else { zero }).collect::<Vec<_>>().join(", ");
+        format!("[{}]", (0..6).map(|i| format!("[{}]", row(i))).collect::<Vec<_>>().join(", "))
+    };
+    let plain = scene(
+        "stress = [[3, 0, 0], [0, 2e3, 0], [0, 0, 0]]",
+        "[50e3, 20, 20, 0, 0, 0]",
+        &rows("0", ["1", "2e-3", "0", "0", "0", "0"]),
+    );
+    let written = scene(
+        "stress = [[\"3 N/m\", 0, 0], [0, \"2 N/mm\", 0], [0, 0, 0]]",
+        "[\"50 N/mm\", \"20 N/m\", 20, \"0 N m\", 0, 0]",
+        &rows("0", ["\"1 N s/m\"", "\"2 N s/km\"", "0", "\"0 mN m s\"", "0", "0"]),
+    );
+    assert_eq!(plain.resolved(), written.resolved());
+    assert_eq!(plain.built().model.springs().len(), written.built().model.springs().len());
 }

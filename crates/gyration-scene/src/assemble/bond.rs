@@ -5,10 +5,11 @@ use super::context::SceneContext;
 use super::lattice::{Cells, check_cell};
 use super::own::{accepted, constants};
 use super::start::placement;
+use super::unit::Unit;
 use crate::check::{PartialScene, Placed, Reporter};
 use crate::file::{self, BondDamping, OneOrMany};
 use crate::key::Key;
-use crate::quantity::si;
+use crate::quantity::{AnyQuantity, si};
 use gyration::kinematics::{BodyMotion, Placement, Velocity};
 use gyration::lattice::HERE;
 use gyration::load::{
@@ -24,6 +25,11 @@ use std::sync::Arc;
 const SEMIDEFINITE: f64 = 1e-12;
 /// Two directions whose cosine differs from one by less are one.
 const PARALLEL: f64 = 1e-12;
+
+/// The units of a stiffness: of places, of places by turns, of turns.
+const OF_STIFFNESS: [Unit; 3] = [Unit::FORCE_PER_LENGTH, Unit::FORCE, Unit::TORQUE];
+/// Those of a damping.
+const OF_DAMPING: [Unit; 3] = [Unit::FORCE_PER_VELOCITY, Unit::IMPULSE, Unit::TORQUE_PER_RATE];
 
 /// The bonds; notes what is wrong with them.
 pub(super) fn bonds(
@@ -128,7 +134,7 @@ impl Written<'_> {
             return Some(Some(BondLaw::Invariants(Arc::new(read))));
         }
         let Some(written) = &value.stiffness else { return Some(None) };
-        let matrix = self.matrix(written, &key.key("stiffness"), reporter)?;
+        let matrix = matrix(written, (&key.key("stiffness"), &OF_STIFFNESS), reporter)?;
         let axes = axes?.clone();
         Some(Some(BondLaw::Stiffness(Arc::new(BondStiffness { axes, matrix }))))
     }
@@ -141,35 +147,10 @@ impl Written<'_> {
             Some(BondDamping::Number(c)) => Some(Dashpot::Vector(c.value())),
             Some(BondDamping::Matrix(rows)) => {
                 let rows = OneOrMany::Many(rows.to_vec());
-                let matrix = self.matrix(&rows, &key.key("damping"), reporter)?;
+                let matrix = matrix(&rows, (&key.key("damping"), &OF_DAMPING), reporter)?;
                 Some(Dashpot::Matrix(Arc::new((axes?.clone(), matrix))))
             }
         })
-    }
-
-    /// A symmetric matrix that is not negative.
-    fn matrix(&self, written: &OneOrMany<[f64; 6]>, key: &Key, reporter: &mut Reporter<'_>) -> Option<Stiffness6> {
-        let matrix = match written {
-            OneOrMany::One(diagonal) => Stiffness6::from_diagonal(&nalgebra::SVector::from(*diagonal)),
-            OneOrMany::Many(rows) if rows.len() == 6 => Stiffness6::from_fn(|i, j| rows[i][j]),
-            OneOrMany::Many(rows) => {
-                let message = format!("it has {} rows", rows.len());
-                reporter.note(key, message, "write six numbers, or six rows of six");
-                return None;
-            }
-        };
-        let largest = matrix.amax();
-        if (matrix - matrix.transpose()).amax() > SEMIDEFINITE * largest {
-            reporter.note(key, "the matrix is not symmetric", "let each pair of entries be equal");
-            return None;
-        }
-        let least = matrix.symmetric_eigenvalues().min();
-        if least < -SEMIDEFINITE * largest {
-            let message = format!("the matrix is not positive semidefinite: it has the eigenvalue {least:e}");
-            reporter.note(key, message, "write one without negative eigenvalues");
-            return None;
-        }
-        Some(matrix)
     }
 
     /// The axes of stiffness and damping: as they are written, or from centre to centre and the space axis least along
@@ -243,4 +224,46 @@ impl Written<'_> {
         }
         false
     }
+}
+
+/// A symmetric matrix that is not negative, whose entries have these units.
+fn matrix(
+    written: &OneOrMany<[AnyQuantity; 6]>,
+    (key, units): (&Key, &[Unit; 3]),
+    reporter: &mut Reporter<'_>,
+) -> Option<Stiffness6> {
+    // Of an entry i, j, or of one on the diagonal.
+    let turns = |index: usize| usize::from(index >= 3);
+    let mut is_right = |key: &Key, turns: usize| units[turns].is_of_all(key, "bond", reporter);
+    let wrong = match written {
+        OneOrMany::One(_) => (0..6).filter(|i| !is_right(&key.index(*i), 2 * turns(*i))).count(),
+        OneOrMany::Many(rows) => {
+            let entries = (0..rows.len()).flat_map(|i| (0..6).map(move |j| (i, j)));
+            entries.filter(|(i, j)| !is_right(&key.index(*i).index(*j), turns(*i) + turns(*j))).count()
+        }
+    };
+    if wrong > 0 {
+        return None;
+    }
+    let matrix = match written {
+        OneOrMany::One(diagonal) => Stiffness6::from_diagonal(&nalgebra::SVector::from(diagonal.map(|entry| entry.0))),
+        OneOrMany::Many(rows) if rows.len() == 6 => Stiffness6::from_fn(|i, j| rows[i][j].0),
+        OneOrMany::Many(rows) => {
+            let message = format!("it has {} rows", rows.len());
+            reporter.note(key, message, "write six numbers, or six rows of six");
+            return None;
+        }
+    };
+    let largest = matrix.amax();
+    if (matrix - matrix.transpose()).amax() > SEMIDEFINITE * largest {
+        reporter.note(key, "the matrix is not symmetric", "let each pair of entries be equal");
+        return None;
+    }
+    let least = matrix.symmetric_eigenvalues().min();
+    if least < -SEMIDEFINITE * largest {
+        let message = format!("the matrix is not positive semidefinite: it has the eigenvalue {least:e}");
+        reporter.note(key, message, "write one without negative eigenvalues");
+        return None;
+    }
+    Some(matrix)
 }

@@ -3,6 +3,7 @@
 use super::absorb::{Absorbers, AbsorbingEnds};
 use super::body::AssembledBody;
 use super::start::placement;
+use super::unit::Unit;
 use crate::check::Reporter;
 use crate::file::{self, Relaxed};
 use crate::key::Key;
@@ -55,14 +56,22 @@ fn load(written: &file::Lattice, lattice: &Lattice, key: &Key, reporter: &mut Re
         reporter.note(&key.key(name), message, "leave it out, or write relax = [\"cell\"]");
         return None;
     }
+    let (owner, unit) = match lattice.vectors().len() {
+        1 => ("chain", Unit::FORCE),
+        2 => ("sheet", Unit::FORCE_PER_LENGTH),
+        _ => ("solid", Unit::PRESSURE),
+    };
+    if ["stress", "pressure"].iter().filter(|name| !unit.is_of_all(&key.key(name), owner, reporter)).count() > 0 {
+        return None;
+    }
     match (written.stress, written.pressure) {
         (Some(_), Some(_)) => {
             reporter.note(&key.key("pressure"), "the stress is given too", "leave one of them out");
             None
         }
-        (_, Some(pressure)) => Some(CellLoad::Pressure(pressure)),
+        (_, Some(pressure)) => Some(CellLoad::Pressure(pressure.0)),
         (stress, None) => {
-            let stress = Mat3::from_fn(|i, j| stress.map_or(0.0, |stress| stress[i][j]));
+            let stress = Mat3::from_fn(|i, j| stress.map_or(0.0, |stress| stress[i][j].0));
             if stress != stress.transpose() {
                 let message = "the stress is not symmetric, and the cell does not turn under it";
                 reporter.note(&key.key("stress"), message, "write the same across the diagonal");

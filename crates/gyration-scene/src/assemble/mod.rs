@@ -41,6 +41,7 @@ mod solids;
 mod spring;
 mod start;
 mod support;
+mod unit;
 mod wave;
 
 pub(crate) use context::SceneContext;

@@ -3,12 +3,11 @@
 use super::context::SceneContext;
 use super::own::{accepted, constants};
 use super::signal::SignalBuilder;
+use super::unit::Unit;
 use crate::check::Reporter;
 use crate::file::{DriveLaw, Entry, Joint, JointDrive, Signal};
 use crate::key::Key;
 use crate::quantity::AnyQuantity;
-use crate::tree::Node;
-use crate::units::{UnitDimension, parse_quantity};
 use gyration::joint::{ANGLE_NAMES, Drive, JointKind, Motor, MotorFault, Stop, StopLaw, WAY_NAMES};
 use gyration::tensor::Mat3;
 use gyration_expression::{Expression, Scratch};
@@ -24,21 +23,10 @@ pub(super) struct WrittenMotor<'a> {
     pub start: f64,
 }
 
-/// What a number of a stop is: its unit in words, how one is written, and its dimension.
-struct Unit(&'static str, &'static str, UnitDimension);
-
-/// Of an angle, a torque, and a damping of turns.
-const OF_HINGE: [Unit; 3] = [
-    Unit("an angle", "\"30 deg\"", UnitDimension::new(0, 0, 0, 1)),
-    Unit("a torque", "\"0.1 N m\"", UnitDimension::new(2, 1, -2, 0)),
-    Unit("a torque per rate", "\"0.1 N m s\"", UnitDimension::new(2, 1, -1, 0)),
-];
-/// Of a way, a force, and a damping of it.
-const OF_SLIDER: [Unit; 3] = [
-    Unit("a length", "\"2 cm\"", UnitDimension::new(1, 0, 0, 0)),
-    Unit("a force", "\"3 N\"", UnitDimension::new(1, 1, -2, 0)),
-    Unit("a force per velocity", "\"3 N s/m\"", UnitDimension::new(0, 1, -1, 0)),
-];
+/// What the coordinate, the push and the resistance of a hinge are.
+const OF_HINGE: [Unit; 3] = [Unit::ANGLE, Unit::TORQUE, Unit::TORQUE_PER_RATE];
+/// Those of a slider.
+const OF_SLIDER: [Unit; 3] = [Unit::LENGTH, Unit::FORCE, Unit::FORCE_PER_VELOCITY];
 
 impl WrittenMotor<'_> {
     /// The motor; notes what is wrong with it.
@@ -82,14 +70,14 @@ impl WrittenMotor<'_> {
         let [way, push, resistance] = self.units();
         let of_stop = |law: &str, name: &str| key.key("stop").key(law).key(name);
         let written_as = [
-            (place.index(0), way),
-            (place.index(1), way),
+            (place.clone(), way),
             (of_stop("repulsion", "d0"), way),
             (of_stop("damping", "d0"), way),
             (of_stop("repulsion", "alpha"), push),
             (of_stop("damping", "beta"), resistance),
         ];
-        let wrong = written_as.iter().filter(|(key, unit)| !self.is_of(key, unit, reporter)).count();
+        let owner = kind.word();
+        let wrong = written_as.iter().filter(|(key, unit)| !unit.is_of_all(key, owner, reporter)).count();
         let [low, high] = limits;
         if *kind == JointKind::Hinge && !(low >= -PI && high <= PI) {
             let help = "write angles from -180 deg to 180 deg";
@@ -116,18 +104,6 @@ impl WrittenMotor<'_> {
             return None;
         }
         (wrong == 0).then_some(Some(Stop { limits, repulsion, damping }))
-    }
-
-    /// Whether a number is without a unit, or has this one; notes it otherwise.
-    fn is_of(&self, key: &Key, Unit(what, example, dimension): &Unit, reporter: &mut Reporter<'_>) -> bool {
-        let node = key.find(&reporter.document.root);
-        let unit = node.and_then(Node::text).and_then(|text| parse_quantity(text).ok()).map(|(_, unit)| unit.dimension);
-        let is_right = unit.is_none_or(|unit| unit == *dimension);
-        if !is_right {
-            let message = format!("of a {} this is {what}, and its unit is none of one", self.kind.word());
-            reporter.note(key, message, format!("write {example}"));
-        }
-        is_right
     }
 
     fn drive(&self, drive: &JointDrive, context: &SceneContext, reporter: &mut Reporter<'_>) -> Option<Drive> {
@@ -173,7 +149,8 @@ impl WrittenMotor<'_> {
         reporter: &mut Reporter<'_>,
     ) -> Option<Drive> {
         let [_, push, _] = self.units();
-        let wrong = numbers(written, place).iter().filter(|key| !self.is_of(key, push, reporter)).count();
+        let owner = self.kind.word();
+        let wrong = numbers(written, place).iter().filter(|key| !push.is_of_all(key, owner, reporter)).count();
         if drive.constants.is_some() {
             let key = self.key.key("drive").key("constants");
             reporter.note(&key, "a signal has no constants: they are those of an expression", "leave them out");

@@ -27,7 +27,7 @@ pub struct Bond {
     pub potential: Option<String>,
     /// Stiffness along the axis and across it (N/m), of torsion and bending (N m): six numbers, or rows of 6×6.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub stiffness: Option<OneOrMany<[f64; 6]>>,
+    pub stiffness: Option<OneOrMany<[AnyQuantity; 6]>>,
     /// The axis of the stiffness, and the first direction across it; from centre to centre if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axes: Option<[[f64; 3]; 2]>,
@@ -44,7 +44,7 @@ pub struct Bond {
 #[serde(untagged)]
 pub enum BondDamping {
     /// Rows (N s/m, N m s).
-    Matrix(Box<[[f64; 6]; 6]>),
+    Matrix(Box<[[AnyQuantity; 6]; 6]>),
     /// On the relative velocity of the points (N s/m).
     Number(NonNegative<SpringDamping>),
 }

@@ -1,7 +1,7 @@
 //! `[lattice]`: the bodies of the scene are what one cell holds.
 
 use super::contractile::OneOrMany;
-use crate::quantity::{DecayRate, Energy, Length, NonNegative, Positive};
+use crate::quantity::{AnyQuantity, DecayRate, Energy, Length, NonNegative, Positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -23,10 +23,10 @@ pub struct Lattice {
     pub relax: Vec<Relaxed>,
     /// The nominal stress under which the cell rests (Pa; of a sheet N/m, of a chain N), row by row; none if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub stress: Option<[[f64; 3]; 3]>,
-    /// The pressure under which it rests instead.
+    pub stress: Option<[[AnyQuantity; 3]; 3]>,
+    /// The pressure under which it rests instead (the same).
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub pressure: Option<f64>,
+    pub pressure: Option<AnyQuantity>,
     /// Waves with which a run starts, one or several.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wave: Option<OneOrMany<LatticeWave>>,
