@@ -277,14 +277,14 @@ fn copies_are_refused_where_they_make_no_sense() {
     let spring = format!("{grid}\nspring = [{{ anchor = [0, 0, 1], stiffness = 1 }}]");
     assert_error(&[TIME, &grain(&spring)].concat(), "body.grain.copies", "leads to a point of space", "`potential`");
     let grid = grid.replace('§', "");
-    let of_all = "[[spring]]\nbetween = [\"grain-0\", §\"grain\"]\nstiffness = 1\n";
+    let of_all = "[[bond]]\nbetween = [\"grain-0\", §\"grain\"]\nlaw = \"l^2\"\n";
     let text = [TIME, &grain(&grid), of_all].concat();
-    assert_error(&text, "spring.0.between.1", "\"grain-0\" to \"grain-1\"", "name one of them, \"grain-0\"");
+    assert_error(&text, "bond.0.between.1", "\"grain-0\" to \"grain-1\"", "name one of them, \"grain-0\"");
     let beyond = "[[spring]]\nbetween = [\"grain-0\", §\"grain-2\"]\nstiffness = 1\n";
     assert_error(
         &[TIME, &grain(&grid), beyond].concat(),
         "spring.0.between.1",
-        "there is no body \"grain-2\"",
+        "there is no body or group \"grain-2\"",
         "grain",
     );
     let joint = "[[joint]]\nname = \"j\"\nbetween = [§\"grain\", \"space\"]\nkind = \"ball\"\n";
@@ -353,4 +353,34 @@ fn a_table_of_places_is_refused_with_its_line() {
     let spring = "[[spring]]\nbetween = [\"grain-0\", \"grain-5\"]\nstiffness = 1\n";
     let found = errors("scene.toml", &[TIME, &grain("copies = { places = \"no.csv\" }"), spring].concat(), &[]);
     assert_eq!(found.count(), 1, "{found}");
+}
+
+/// Springs between all of groups are those that are written one by one.
+#[test]
+fn springs_join_any_two_of_groups() {
+    let balls = |count: usize| {
+        let copies = format!("copies = {{ grid = {{ count = [{count}, 1, 1], spacing = [1, 0, 0] }} }}");
+        let hub = "[[body]]\nname = \"hub\"\ngroup = [\"nodes\", \"iron\"]\nshape = { sphere = { radius = 0.01 } }\n\
+                   mass = 1\nposition = [0, 9, 0]\n";
+        [TIME, &grain(&copies), hub].concat()
+    };
+    let joined = |one: &str, other: &str| {
+        let spring = format!("[[spring]]\nbetween = [\"{one}\", \"{other}\"]\nstiffness = 1\n");
+        let scene = Scene::parse("scene.toml", &(balls(3) + &spring), Path::new(""), &[]);
+        let scene = scene.unwrap_or_else(|errors| panic!("{errors}"));
+        scene.built().model.springs().iter().filter_map(gyration::load::Spring::bodies).collect::<Vec<_>>()
+    };
+    assert_eq!(joined("grain", "grain"), [[0, 1], [0, 2], [1, 2]]);
+    assert_eq!(joined("hub", "grain"), [[3, 0], [3, 1], [3, 2]]);
+    assert_eq!(joined("nodes", "grain-1"), [[3, 1]]);
+    assert_eq!(joined("grain-1", "grain"), [[1, 0], [1, 2]]);
+    let spring = |one: &str, other: &str| format!("[[spring]]\nbetween = {one}{other}\nstiffness = 1\n");
+    let text = balls(3) + &spring("§[\"iron\", ", "\"iron\"]");
+    assert_error(&text, "spring.0.between", "both name one body, and no pair", "besides");
+    let text = balls(3) + &spring("§[\"hub\", ", "\"iron\"]");
+    assert_error(&text, "spring.0.between", "both name one body, and no pair", "besides");
+    let text = balls(3) + &spring("[\"hub\", ", "§\"stel\"]");
+    assert_error(&text, "spring.0.between.1", "no body or group \"stel\"", "did you mean `steel`");
+    let text = balls(1001) + &spring("§[\"grain\", ", "\"grain\"]");
+    assert_error(&text, "spring.0.between", "more than 1000000 springs", "name fewer");
 }

@@ -440,8 +440,8 @@ fn errors_of_bodies_stand_at_their_place() {
         (
             format!("{two}[[spring]]\nbetween = [\"b\", §\"d\"]\nstiffness = 1"),
             "spring.0.between.1",
-            "no body \"d\"",
-            "body: b, ball, c",
+            "no body or group \"d\"",
+            "one of: b, ball, c",
         ),
         (
             format!("{two}[[spring]]\nbetween = [\"b\", §\"b\"]\nstiffness = 1"),

@@ -51,8 +51,21 @@ impl<'a> Names<'a> {
         self.are_known
     }
 
+    /// The pairs of two different bodies that two words name, each once, in the order of the words; none where one names
+    /// nothing.
+    pub fn pairs(&self, words: [&str; 2]) -> Option<impl Iterator<Item = [usize; 2]>> {
+        let [one, other] = [self.group(words[0])?, self.group(words[1])?];
+        let is_in = |set: &[usize], body: usize| set.binary_search(&body).is_ok();
+        let all = one.clone().into_iter().flat_map({
+            let other = other.clone();
+            move |first| other.clone().into_iter().map(move |second| [first, second])
+        });
+        let stands_twice = move |[a, b]: [usize; 2]| is_in(&one, b) && is_in(&other, a);
+        Some(all.filter(move |[a, b]| a < b || (a != b && !stands_twice([*a, *b]))))
+    }
+
     /// The bodies that a word names; none if it names none.
-    fn group(&self, name: &str) -> Option<Vec<usize>> {
+    pub fn group(&self, name: &str) -> Option<Vec<usize>> {
         self.groups.get(name).cloned().or_else(|| Some(vec![self.copies.find(name)?]))
     }
 

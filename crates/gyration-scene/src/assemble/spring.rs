@@ -2,30 +2,32 @@
 
 use super::body::{AssembledBody, lever};
 use super::lattice::{Cells, check_cell};
+use super::partners::Names;
 use super::start::placement;
 use crate::check::{PartialScene, Placed, Reporter};
 use crate::file;
 use crate::quantity::si;
-use gyration::lattice::HERE;
+use gyration::lattice::{Cell, HERE};
 use gyration::load::{Spring, SpringLaw};
 use gyration::tensor::Vec3;
-use std::collections::HashMap;
 
-/// The springs between bodies; notes those that start without a direction.
+/// The most springs that one of the file stands for.
+const MOST: usize = 1_000_000;
+
+/// The springs between bodies, or between any two different ones of groups; notes those that start without a
+/// direction.
 pub(super) fn springs(
     partial: &PartialScene,
     assembled: &[Option<AssembledBody>],
     cells: Option<&Cells>,
     reporter: &mut Reporter<'_>,
 ) -> Vec<Spring> {
-    let name = |(index, body): (usize, &Option<AssembledBody>)| Some((body.as_ref()?.name.clone(), index));
-    let named: HashMap<String, usize> = assembled.iter().enumerate().filter_map(name).collect();
-    let spring = |Placed { key, value, .. }: &Placed<file::SpringBetween>| {
-        let [Some(&one), Some(&other)] = value.between.each_ref().map(|name| named.get(name)) else { return None };
-        let bodies = [one, other];
+    let names = Names::of(partial);
+    let spring = |placed: &Placed<file::SpringBetween>| {
+        let Placed { key, value, .. } = placed;
         let cell = value.cell.map_or(HERE, |cell| cell.map(|n| n.0 as i32));
-        if (one == other && cell == HERE) || (cell != HERE && !check_cell(cell, cells, &key.key("cell"), reporter)) {
-            return None;
+        if cell != HERE && !check_cell(cell, cells, &key.key("cell"), reporter) {
+            return Vec::new();
         }
         let away = cells.map_or_else(Vec3::zeros, |cells| cells.lattice.place(cell));
         let law = SpringLaw {
@@ -33,24 +35,62 @@ pub(super) fn springs(
             rest_length: value.rest_length.value(),
             damping: value.damping.value(),
         };
-        let [Some(one), Some(other)] = bodies.map(|body| assembled[body].as_ref()) else { return None };
         let points: [Vec3; 2] = value.points.each_ref().map(si);
-        for (end, _) in [one, other].into_iter().enumerate().filter(|(_, body)| body.body.is_point()) {
-            lever(&points[end], &key.key("points").index(end), reporter);
+        let pairs = pairs(placed, (partial, &names), cell, reporter);
+        for end in 0..2 {
+            let points_mass = |pair: &[usize; 2]| assembled[pair[end]].as_ref().is_some_and(|it| it.body.is_point());
+            if pairs.iter().any(points_mass) {
+                lever(&points[end], &key.key("points").index(end), reporter);
+            }
         }
-        let [here, there] =
-            [(one, points[0]), (other, points[1])].map(|(end, point)| placement(&end.start).place(&point));
-        if law.is_directed() && here == there + away {
-            let [x, y, z] = here.into();
-            let (first, second) = (&one.name, &other.name);
-            let message = format!(
-                "the spring starts with no length and has no direction: both points, of \"{first}\" and of \
-                 \"{second}\", are at [{x}, {y}, {z}]"
-            );
-            let help = "move a body or a point, or leave out `rest_length` and `damping`";
-            reporter.note(&key.key("points"), message, help);
-        }
-        Some(Spring::between(bodies, points, law).across(cell))
+        let mut is_told = !law.is_directed();
+        let between = |bodies: [usize; 2]| {
+            let [Some(one), Some(other)] = bodies.map(|body| assembled[body].as_ref()) else { return None };
+            let [here, there] =
+                [(one, points[0]), (other, points[1])].map(|(end, point)| placement(&end.start).place(&point));
+            if !is_told && here == there + away {
+                is_told = true;
+                let [x, y, z] = here.into();
+                let (first, second) = (&one.name, &other.name);
+                let message = format!(
+                    "the spring starts with no length and has no direction: both points, of \"{first}\" and of \
+                     \"{second}\", are at [{x}, {y}, {z}]"
+                );
+                let help = "move a body or a point, or leave out `rest_length` and `damping`";
+                reporter.note(&key.key("points"), message, help);
+            }
+            Some(Spring::between(bodies, points, law).across(cell))
+        };
+        pairs.into_iter().filter_map(between).collect()
     };
-    partial.springs.iter().filter_map(spring).collect()
+    partial.springs.iter().flat_map(spring).collect()
+}
+
+/// The bodies between which a spring of the file stands; in another cell of a lattice any two of them. Notes if there
+/// are none, or too many.
+fn pairs(
+    Placed { key, value, .. }: &Placed<file::SpringBetween>,
+    (partial, names): (&PartialScene, &Names<'_>),
+    cell: Cell,
+    reporter: &mut Reporter<'_>,
+) -> Vec<[usize; 2]> {
+    let words = value.between.each_ref().map(String::as_str);
+    let [Some(one), Some(other)] = words.map(|word| names.group(word)) else { return Vec::new() };
+    let key = key.key("between");
+    if one.len() * other.len() > MOST {
+        let message = format!("{} bodies by {} are more than {MOST} springs", one.len(), other.len());
+        reporter.note(&key, message, "name fewer, or let a `contact` with adhesion hold them together");
+        return Vec::new();
+    }
+    if cell != HERE {
+        return one.iter().flat_map(|first| other.iter().map(|second| [*first, *second])).collect();
+    }
+    let pairs: Vec<[usize; 2]> = names.pairs(words).into_iter().flatten().collect();
+    // One body that is named twice has been noted.
+    let is_body = |word: &str| partial.bodies.iter().any(|body| body.value.name == word);
+    let is_noted = words[0] == words[1] && is_body(words[0]) && !partial.copy_names.has(words[0]);
+    if pairs.is_empty() && !is_noted {
+        reporter.note(&key, "both name one body, and no pair", "name another body or group besides");
+    }
+    pairs
 }

@@ -121,6 +121,11 @@ impl CopyNames {
         (number < range.len()).then(|| range.start + number)
     }
 
+    /// Whether a body of the file has copies.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.0.contains_key(name)
+    }
+
     /// How many copies a body of the file has; none if it is no name of one that has any.
     pub(super) fn count(&self, name: &str) -> Option<usize> {
         self.0.get(name).map(Range::len)

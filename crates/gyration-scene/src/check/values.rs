@@ -36,8 +36,10 @@ pub(crate) fn values(partial: &PartialScene, reporter: &mut Reporter<'_>) {
     }
     references("support", &supports, reporter);
     references("body", &bodies, reporter);
-    ends("spring", &bodies, reporter);
-    ends("bond", &bodies, reporter);
+    let groups: BTreeSet<&str> = partial.roll.iter().flat_map(|body| &body.words).map(String::as_str).collect();
+    let are_known = partial.roll.iter().all(|body| body.are_known);
+    ends("spring", &bodies, (&groups, are_known), reporter);
+    ends("bond", &bodies, (&BTreeSet::new(), true), reporter);
     Named::of("joint", reporter);
     joints::ends(&supports, &bodies, reporter);
     partners(&supports, &bodies, &partial.roll, reporter);
@@ -62,12 +64,18 @@ fn references(section: &str, known: &Named, reporter: &mut Reporter<'_>) {
     }
 }
 
-/// Notes the springs or bonds between bodies that name a body that is not there or one body twice.
-fn ends(section: &str, known: &Named, reporter: &mut Reporter<'_>) {
+/// Notes the springs or bonds between bodies that name a body that is not there or one body twice; springs may name
+/// groups, if it is known which there are.
+fn ends(section: &str, known: &Named, (groups, are_known): (&BTreeSet<&str>, bool), reporter: &mut Reporter<'_>) {
     check_ends(section, reporter, |end| {
         let name = end.name;
-        if known.lacks(name) {
-            Some((format!("there is no body \"{name}\""), suggest::fix(name, known.iter(), "body")))
+        let is_group = known.many(name).is_some() || !known.has(name);
+        if is_group && groups.contains(name) {
+            None
+        } else if known.lacks(name) && are_known {
+            let what = if groups.is_empty() { "body" } else { "body or group" };
+            let names = known.iter().chain(groups.iter().copied().filter(|group| !known.has(group)));
+            Some((format!("there is no {what} \"{name}\""), suggest::fix(name, names, "one of")))
         } else if let Some(fault) = known.many(name) {
             Some(fault)
         } else if end.is_twice() && !leads_away(end.item) {

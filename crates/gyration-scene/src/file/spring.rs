@@ -5,11 +5,12 @@ use crate::quantity::{Length, NonNegative, SpringDamping, Stiffness};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A spring and dashpot between points of two bodies.
+/// A spring and dashpot between points of two bodies, or of any two of groups.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpringBetween {
-    /// Names of the two bodies; in a lattice they may be one, and its image in another cell.
+    /// Names of the two bodies, or of groups: any two different ones; in a lattice they may be one, and its image in
+    /// another cell.
     pub between: [String; 2],
     /// In a lattice the cell of the second, as seen from that of the first; the same if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
