@@ -389,7 +389,41 @@ fn a_contact_of_many_bodies_without_a_reach_is_told() {
         format!("{HEAD}{}{contact}", balls.replace("mass = 1", "mass = 1\ngroup = \"pile\""))
     };
     let told = remarks(&heap(8, "")).notes;
-    assert!(told.len() == 1 && told[0].contains("has no reach") && told[0].contains("`reach = \"auto\"`"), "{told:?}");
+    assert!(
+        told.len() == 1 && told[0].contains("has no reach") && told[0].contains("a `reach` of some 25"),
+        "{told:?}"
+    );
     assert_eq!(remarks(&heap(3, "")).notes, Vec::<String>::new());
     assert_eq!(remarks(&heap(8, "reach = \"5 mm\"")).notes, Vec::<String>::new());
+}
+
+/// The reach that is proposed changes the gap of rest as `check` says, and by little, whatever the exponent is.
+#[test]
+fn a_crowd_without_a_reach_is_told_what_it_costs_and_which_changes_little() {
+    let crowd = |shape: &str, nu: f64, reach: &str| {
+        scene(&format!(
+            "[time]\nend = 0.01\nsample = 0.005\n[[body]]\nname = \"b\"\nshape = {{ {shape} }}\nmass = 0.1\n\
+             copies = {{ grid = {{ count = [15, 15, 1], spacing = [0.1, 0.1, 0.1] }} }}\n[[contact]]\n\
+             between = [\"b\", \"b\"]\nrepulsion = {{ alpha = 100, nu = {nu}, d0 = 1e-3 }}\n{reach}"
+        ))
+    };
+    for shape in ["sphere = { radius = 0.02 }", "box = { size = [0.03, 0.04, 0.05] }"] {
+        for nu in [2.5, 6.0, 12.0] {
+            let told = Survey::of(&crowd(shape, nu, "")).unwrap().remarks.notes;
+            let note = told.iter().find(|note| note.contains("has no reach")).unwrap();
+            assert!(
+                note.contains("each of its 25200 pairs") && note.contains("a step of all its bodies takes"),
+                "{note}"
+            );
+            let (_, from) = note.split_once('`').unwrap();
+            let (reach, rest) = from.split_once('`').unwrap();
+            let (_, change) = rest.split_once("smaller by ").unwrap();
+            let change: f64 = change.split_once(" of it").unwrap().0.parse().unwrap();
+            println!("{shape}, exponent {nu}: {reach}, {change:e}");
+            let survey = Survey::of(&crowd(shape, nu, reach)).unwrap();
+            let found = survey.meetings[0].reach_change.unwrap();
+            assert!(change <= 1e-2 && (found / change - 1.0).abs() < 0.5, "{reach}: {change:e} {found:e}");
+            assert_eq!(survey.remarks.warnings, Vec::<String>::new());
+        }
+    }
 }

@@ -14,6 +14,7 @@ mod meshes;
 mod neighbor;
 mod plates;
 mod reaches;
+mod reachless;
 mod rows;
 mod stored;
 mod strangers;
@@ -59,7 +60,7 @@ impl Remarks {
         remarks.notes.extend(untouched::unfelt(model));
         remarks.notes.extend(turning::notes(model));
         remarks.notes.extend(begun::notes(model, start));
-        remarks.notes.extend(reaches::notes(model));
+        remarks.notes.extend(reachless::notes(model, start));
         remarks.notes.extend(felt::notes(model));
         remarks.warnings.extend(felt::warning(model));
         remarks.warnings.extend(meshes::warnings(model));

@@ -24,24 +24,6 @@ pub(super) fn warnings(model: &Model, start: &State) -> Vec<String> {
     (0..model.rules().all().len()).filter_map(|rule| warning(model, start, rule)).take(MOST_TOLD).collect()
 }
 
-/// Pairs of a contact from which on it costs that none is too far to be looked at.
-const MANY_PAIRS: usize = 20;
-
-/// What must be told of contacts of many bodies without a reach.
-pub(super) fn notes(model: &Model) -> Vec<String> {
-    let rules = model.rules().all().iter().enumerate();
-    let without = rules.filter(|(_, rule)| rule.reach.is_none() && model.images().is_none()).map(|(rule, _)| rule);
-    let many = without.filter(|rule| Joined::of_rule(model, *rule).nth(MANY_PAIRS).is_some());
-    let note = |rule: usize| {
-        let [one, other] = Joined::of_rule(model, rule).next()?.bodies.map(|body| model.name(body));
-        Some(format!(
-            "the contact of \"{one}\" and \"{other}\" has no reach: each of its pairs acts however far apart, and all \
-             its bodies share their steps; `reach = \"auto\"` leaves out what is beyond some 25 gaps"
-        ))
-    };
-    many.filter_map(note).take(MOST_TOLD).collect()
-}
-
 fn warning(model: &Model, start: &State, rule: usize) -> Option<String> {
     match model.rules().all()[rule].reach? {
         Reach::Length(reach) => of_a_length(model, start, rule, reach),
