@@ -5,6 +5,7 @@ use crate::resumption::resumes_after_every_window;
 use crate::sensitivities::support::{TIGHT, disagreement, strings};
 use gyration::dynamics::Workspace;
 use gyration_sim::{FirstSteps, Job, MemorySink, MomentumChange, Outcome, Provenance, Reason, Simulation, Unwatched};
+use nalgebra::UnitQuaternion;
 
 /// Two links, a rubber block on the lower and a ball on a spring, over a table.
 pub const ARM: &str = r#"
@@ -230,4 +231,96 @@ fn a_linkage_that_is_flat_is_passed_or_told_at_once() {
     let Outcome::Stopped(stop) = outcome else { panic!("{outcome:?}") };
     println!("{evaluations} evaluations, {}: {}", stop.time, stop.what);
     assert!(stop.reason == Reason::Locked && evaluations < 3_000 && (stop.time - 0.24537).abs() < 1e-4, "{stop:?}");
+}
+
+/// Symptom: which lines across the axis told the angle of a soft hinge was a matter of the axes of space, so that a
+/// drive did another work in a scene that was turned.
+#[test]
+fn a_driven_hinge_of_soft_bodies_moves_alike_however_the_scene_lies() {
+    let at_end = |turn: &UnitQuaternion<f64>, first: &str| {
+        let [x, y, z, w] = [turn.i, turn.j, turn.k, turn.w];
+        let place = turn * nalgebra::Vector3::new(0.12, 0.01, 0.0);
+        let soft = "affine = { material = { neo_hookean = { shear = 1000, bulk = 2000 } } }";
+        let body = |name: &str, [px, py, pz]: [f64; 3], lines: &str| {
+            format!(
+                "[[body]]\nname = \"{name}\"\nshape = {{ box = {{ size = [0.1, 0.08, 0.1] }} }}\ndensity = 1000\n\
+                 position = [{px:?}, {py:?}, {pz:?}]\n\
+                 orientation = {{ quaternion = [{w:?}, {x:?}, {y:?}, {z:?}] }}\n{lines}\n"
+            )
+        };
+        let text = format!(
+            "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 0.5, sample = 0.5 }}\n\
+             solver = {{ rtol = 1e-10, atol = 1e-12 }}\n{}{}[[joint]]\nname = \"h\"\nbetween = [\"a\", \"b\"]\n\
+             kind = \"hinge\"\npoints = [[0.06, 0.01, 0], [-0.06, 0, 0]]\naxis = [0.1, 0.3, 1]\n\
+             limits = [\"-60 deg\", \"60 deg\"]\n\
+             stop = {{ repulsion = {{ alpha = 1e-3, nu = 2, d0 = 0.1 }} }}\n\
+             drive = {{ torque = \"0.05*sin(20*t) - 0.1*angle\" }}\n",
+            body("a", [0.0; 3], first),
+            body("b", place.into(), soft)
+        );
+        let scene = parsed(&text, &[]);
+        let job = Job::of(&scene, &Provenance { version: String::new(), commit: None });
+        let mut sink = MemorySink::default();
+        let mut simulation = Simulation::new(job.model, job.start, job.plan).unwrap();
+        simulation.begin(&mut sink).unwrap();
+        assert_eq!(simulation.run(&mut sink, &mut Unwatched).unwrap(), Outcome::Completed);
+        let names: Vec<String> = job.layout().arrays.iter().map(|array| array.name.clone()).collect();
+        let widths: Vec<usize> = job.layout().arrays.iter().map(|array| array.row_len()).collect();
+        let row = &sink.rows.last().unwrap().1;
+        ["joint_angle", "energy_kinetic"].map(|name| {
+            let number = names.iter().position(|known| known == name).unwrap_or_else(|| panic!("{names:?}"));
+            row[widths[..number].iter().sum::<usize>()]
+        })
+    };
+    for first in ["", "affine = { material = { neo_hookean = { shear = 1000, bulk = 2000 } } }"] {
+        let written = at_end(&UnitQuaternion::identity(), first);
+        println!("soft first: {}, angle and energy {written:?}", !first.is_empty());
+        for axis in [[0.0, 0.0, 1.0], [1.0, 0.3, -0.4], [0.2, 1.0, 0.5]] {
+            let turn = UnitQuaternion::new(nalgebra::Vector3::from(axis) * 1.3);
+            let found = at_end(&turn, first);
+            let off = (0..2).map(|k| (found[k] / written[k] - 1.0).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-6, "{axis:?}: {found:?} {written:?}");
+        }
+    }
+}
+
+/// Symptom: what friction would take between cubes that turn together is rounding, and below zero Coulomb's bound was
+/// no number.
+#[test]
+fn cubes_that_turn_together_far_apart_have_no_friction() {
+    for (nu, friction) in [(6.0, 2.0), (12.0, 3.0), (12.0, 6.0), (8.0, 4.0), (6.0, 6.0)] {
+        for (k, apart) in [0.25, 0.4, 0.7, 1.3, 2.0].into_iter().enumerate() {
+            let turn = UnitQuaternion::new(nalgebra::Vector3::new(0.3, -0.8, 0.5) * (k + 1) as f64);
+            let spin = nalgebra::Vector3::new(0.4, 0.7, 2.0);
+            let place = turn * nalgebra::Vector3::new(apart, 0.1, 0.05);
+            let velocity = spin.cross(&place);
+            let cube = |name: &str, place: nalgebra::Vector3<f64>, velocity: nalgebra::Vector3<f64>| {
+                let list = |v: nalgebra::Vector3<f64>| format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z);
+                format!(
+                    "[[body]]\nname = \"{name}\"\nshape = {{ box = {{ size = [0.1, 0.1, 0.1] }} }}\n\
+                     density = 1000\nposition = {}\nvelocity = {}\nangular_velocity = {}\n",
+                    list(place),
+                    list(velocity),
+                    list(spin)
+                )
+            };
+            let text = format!(
+                "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 0.05, sample = 0.05 }}\n[[contact]]\n\
+                 between = [\"a\", \"b\"]\nrepulsion = {{ alpha = 100, nu = {nu}, d0 = 1e-3 }}\n\
+                 friction = {{ beta = 100, nu = {friction}, d0 = 1e-3, mu = 0.3 }}\n{}{}",
+                cube("a", nalgebra::Vector3::zeros(), nalgebra::Vector3::zeros()),
+                cube("b", place, velocity)
+            );
+            let scene = parsed(&text, &[]);
+            let job = Job::of(&scene, &Provenance { version: String::new(), commit: None });
+            let mut sink = MemorySink::default();
+            let mut simulation = Simulation::new(job.model, job.start, job.plan).unwrap();
+            simulation.begin(&mut sink).unwrap();
+            assert_eq!(
+                simulation.run(&mut sink, &mut Unwatched).unwrap(),
+                Outcome::Completed,
+                "{nu} {friction} {apart}"
+            );
+        }
+    }
 }

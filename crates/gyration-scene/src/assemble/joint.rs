@@ -12,7 +12,7 @@ use crate::check::{PartialScene, Placed, Reporter, SPACE, direction};
 use crate::file::{self, JointWord};
 use crate::key::Key;
 use crate::quantity::si;
-use gyration::joint::{Joint, JointKind, frame_about, turned_about_axis};
+use gyration::joint::{Joint, JointKind, frame_beside, turned_about_axis};
 use gyration::kinematics::{Placement, Quaternion};
 use gyration::load::{Interaction, Party};
 use gyration::state::Start;
@@ -242,10 +242,12 @@ impl Written<'_> {
         true
     }
 
-    /// The frames of both, a the axis: one in space at the angle zero.
+    /// The frames of both, a the axis: one in space at the angle zero. By which directions across the axis angles of
+    /// bodies that deform are told, the first body says.
     fn frames(&self, axis: &Vec3, kind: JointKind) -> [Mat3; 2] {
         let [one, other] = [0, 1].map(|end| self.ends[end].placement().gradient);
-        let frame = frame_about(&(one * axis));
+        let of_body = if self.ends[0].body.is_some() { one } else { other };
+        let frame = frame_beside(&(one * axis), &of_body);
         let angle = if kind == JointKind::Hinge { self.angle(axis) } else { 0.0 };
         // P of a body that starts has an inverse.
         let seen = |gradient: Mat3, frame: Mat3| gradient.try_inverse().unwrap_or_else(Mat3::identity) * frame;

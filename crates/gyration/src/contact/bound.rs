@@ -41,6 +41,8 @@ impl Bound {
     pub fn new(mu: f64, at: Sliding) -> Self {
         let most = mu * at.push;
         let resistance = at.resistance / most;
+        // Of what does not slide 2R is rounding, of either sign.
+        let at = Sliding { lost: at.lost.max(0.0), ..at };
         let strength = at.lost / most * resistance;
         if !strength.is_finite() {
             return Self { at, factor: 0.0, by_loss: 0.0, saturation: 0.0 };
@@ -111,6 +113,8 @@ mod tests {
             let change = bound.change(&Sliding { lost: 1.0, resistance: 1.0, push: 1.0 });
             assert_eq!((bound.factor(), change, bound.by_motion()), (0.0, 0.0, 0.0));
         }
+        let turning = Bound::new(0.6, Sliding { lost: -1e-20, resistance: 1e-9, push: 1e-25 });
+        assert_eq!((turning.factor(), turning.saturation), (1.0, 0.0));
         let still = Bound::new(0.6, Sliding { lost: 0.0, resistance: 0.0, push: 1.0 });
         assert_eq!((still.factor(), still.change(&Sliding { lost: 0.0, ..AT })), (1.0, 0.0));
     }
