@@ -111,6 +111,11 @@ impl Implicit {
         }
     }
 
+    /// The evaluations of a step that are made for quadratures alone which have no part in its error.
+    pub fn free_evaluations(&self, layout: &SystemLayout) -> u64 {
+        if layout.has_only_free_quadratures() { self.last_stage() as u64 } else { 0 }
+    }
+
     /// The stage at the end of the step.
     fn last_stage(&self) -> usize {
         self.stages.method.stages() - 1

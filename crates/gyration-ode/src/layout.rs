@@ -63,6 +63,11 @@ impl SystemLayout {
             && self.components.are(system.components())
     }
 
+    /// Whether there are quadratures, none of which has a part in the error of a step.
+    pub fn has_only_free_quadratures(&self) -> bool {
+        self.width > self.dimension && self.groups.get(self.blocks).is_none_or(Range::is_empty)
+    }
+
     /// The blocks of y.
     pub fn blocks(&self) -> &[Range<usize>] {
         &self.groups[..self.blocks]

@@ -307,6 +307,8 @@ impl Integrator {
                 }
             }
             Stepper::Implicit => {
+                // Whoever asks for what is merely counted along gets the same steps.
+                let evaluations = evaluations - self.implicit.free_evaluations(&self.layout);
                 let stages = &mut self.implicit.stages;
                 let (step, max_step) = (self.progress.step, self.options.max_step);
                 let effort = ImplicitEffort { h: step, max_step, evaluations, linear: stages.linear.relative_cost() };

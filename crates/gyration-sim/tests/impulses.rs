@@ -140,6 +140,24 @@ fn a_run_that_is_not_asked_steps_the_same() {
     assert!(!usual.names.iter().any(|name| name.starts_with("impulse") || name.starts_with("peak")));
 }
 
+/// Symptom: where nothing dissipates, the evaluations for impulses alone had a vote on which method went on.
+#[test]
+fn a_ball_on_a_ball_steps_the_same_if_it_is_asked() {
+    let text = |record: &str| {
+        format!(
+            "time = {{ end = 0.45, sample = 0.45 }}\n{record}\n[[support]]\nname = \"smooth\"\n\
+             shape = {{ sphere = {{ radius = 0.1 }} }}\n[[contact]]\nsupport = \"smooth\"\n\
+             repulsion = {{ alpha = 12e6, nu = 6, d0 = 1e-5 }}\n[[body]]\nname = \"b\"\n\
+             shape = {{ sphere = {{ radius = 0.02 }} }}\ndensity = 7800\n\
+             position = [0.0238423064, 0, 0.1176177900]\n"
+        )
+    };
+    let [usual, asked] = ["", ASKED].map(|record| Run::of(&parsed(&text(record), &[])));
+    assert_eq!(usual.steps, asked.steps);
+    let last = usual.rows.len() - 1;
+    (0..3).for_each(|place| assert_eq!(usual.at(last, "position", place), asked.at(last, "position", place)));
+}
+
 /// Balls that meet and part, each an island of its own in between: what is pushed is in none of them lost.
 fn billiard(sample: f64) -> Scene {
     let mut text = format!(

@@ -3,6 +3,9 @@
 //! The signals are looked at on the quarters of the step, and on more parts where a body that is no ball turns by more
 //! than half a right angle, on its interpolant, which costs no evaluation of the rates. Where one changes its sign from a significant value to another, the crossing is closed in. Neither the steps nor the
 //! samples have a part in this.
+//!
+//! A force is known at the ends of a step. Between two at which a body is pushed, it may have left its support all the
+//! same: where the acceleration of the interpolant says that the force may be small, it is asked for.
 
 use crate::adapter::ModelSystem;
 use crate::events::{self, APEX, CLOSEST_APPROACH, Event, FoundEvent, LIFT_OFF, Signals};
@@ -20,6 +23,11 @@ const PARTS: usize = 4;
 /// By how much a body that is no ball turns in a part of a step at most [rad]: an edge of a box five times as wide as
 /// it is high is down for twice as long before its face lies flat.
 const TURN: f64 = std::f64::consts::PI / 16.0;
+
+/// Half a difference of velocities over a step.
+const DIFFERENCE: f64 = 1e-3;
+/// A force is looked at that seems to be below this part of that at the end of the step, or of the weight.
+const SMALL: [f64; 2] = [0.02, 0.2];
 
 impl Island {
     /// The signals of a body after the last step, once the forces there are known.
@@ -74,15 +82,15 @@ impl Island {
         let before = self.events.len();
         self.since.clear();
         self.since.resize(self.step_ends.len(), [report.start; 3]);
+        self.find_forces();
         let parts = self.count_parts(report);
         for part in 1..=parts {
             let time = part_of(report, (part, parts));
             if part < parts {
-                let State { bodies, low, works, .. } = &mut self.sampled;
-                self.integrator.interpolate_extended(time, bodies, works, Some(low));
+                self.interpolate(time);
                 self.find_signals_within(time);
+                self.find_partings_within(time, DIFFERENCE * (report.end - report.start));
             } else {
-                self.find_forces();
                 self.find_signals();
             }
             for body in 0..self.step_ends.len() {
@@ -119,6 +127,53 @@ impl Island {
         }));
     }
 
+    /// The state within the last step, as the interpolant has it.
+    fn interpolate(&mut self, time: f64) {
+        let State { bodies, low, works, time: at } = &mut self.sampled;
+        *at = time;
+        self.integrator.interpolate_extended(time, bodies, works, Some(low));
+    }
+
+    /// The signals of bodies that are pushed at both ends of the last step and by next to nothing at a time within it.
+    fn find_partings_within(&mut self, time: f64, half: f64) {
+        let is_pushed = |island: &Self, body: usize| {
+            let seen = &island.step_ends[body];
+            island.state.signals[body][LIFT_OFF] > 0.0 && seen.contact_force(island.model(), body).is_some()
+        };
+        if !(0..self.step_ends.len()).any(|body| is_pushed(self, body)) {
+            return;
+        }
+        let velocity = |island: &Self, body: usize| island.sampled.motion(island.model(), body).velocity.velocity;
+        let mut changes = std::mem::take(&mut self.changes);
+        changes.clear();
+        self.interpolate(time - half);
+        changes.extend((0..self.step_ends.len()).map(|body| velocity(self, body)));
+        self.interpolate(time + half);
+        for (body, change) in changes.iter_mut().enumerate() {
+            *change = velocity(self, body) - *change;
+        }
+        let mut is_sampled = false;
+        for body in 0..self.step_ends.len() {
+            if !is_pushed(self, body) {
+                continue;
+            }
+            let (model, gravity) = (self.model(), self.model().gravity);
+            let mass = model.bodies[body].solid.mass.mass;
+            let force = mass * (changes[body] / (2.0 * half) - gravity).norm();
+            if force >= SMALL[0] * self.forces[body] + SMALL[1] * mass * gravity.norm() {
+                continue;
+            }
+            if !std::mem::replace(&mut is_sampled, true) {
+                self.sample(time);
+            }
+            let (model, workspace) = self.system.observed();
+            let force = observe(model, workspace, &self.sampled, body).map_or(f64::NAN, |it| it.contact_force.norm());
+            let speed = self.system.speed_scale(body);
+            self.signals[body][LIFT_OFF] = events::lift_off(self.system.model(), body, force, speed);
+        }
+        self.changes = changes;
+    }
+
     /// Compares the signals of a body with the last significant ones, and collects the events between.
     fn compare(&mut self, body: usize, time: f64) {
         let signals = self.signals[body].into_iter().enumerate();
@@ -153,7 +208,7 @@ impl Island {
             match kind {
                 APEX => events::apex(model, body, &motion(), speed),
                 LIFT_OFF => {
-                    // Looked for at the end of a step only, when nothing else needs the sample.
+                    // When nothing else needs the sample.
                     state.time = time;
                     state.bodies.copy_from_slice(bodies);
                     state.low.fill(0.0);

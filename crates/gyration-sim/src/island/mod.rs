@@ -38,6 +38,7 @@ pub(crate) use effort::Effort;
 use gyration::Team;
 use gyration::model::Model;
 use gyration::state::State;
+use gyration::tensor::Vec3;
 use gyration_ode::{Integrator, Memory, MemoryError, StepReport};
 use gyration_threads::{Interruption, with_threads_at_hand};
 use horizon::horizon;
@@ -87,6 +88,8 @@ pub(crate) struct Island {
     pub signals: Vec<Signals>,
     /// Scratch: since when each signal of each body is known within the step [s].
     pub since: Vec<[f64; 3]>,
+    /// Scratch: changes of velocities within a step [m/s].
+    changes: Vec<Vec3>,
     /// The largest contact forces before the last step; those behind it stand in the state.
     pub peaks_before: Peaks,
     /// From when to when its interpolant is known [s]; none before the first step.
@@ -148,6 +151,7 @@ impl Island {
             events: Vec::new(),
             signals: Vec::new(),
             since: Vec::new(),
+            changes: Vec::new(),
             peaks_before: Peaks::default(),
             last_step: None,
             report: None,

@@ -5,9 +5,12 @@ use crate::island::step_end::StepEnd;
 use crate::plan::RunPlan;
 use crate::run_state::DISSIPATION;
 use gyration::balance::{fastest_speed, kinetic_energy};
+use gyration::body::{Body, Slots};
+use gyration::dynamics::{Workspace, rates};
 use gyration::model::Model;
 use gyration::state::BodyMotion;
 use gyration_ode::{CrossingDirection, StepReport, find_crossing};
+use std::sync::Arc;
 
 /// The parts of a step at which speeds are looked at besides its ends: what swings in half a period is fastest
 /// half-way.
@@ -48,11 +51,6 @@ impl Island {
             return;
         }
         let was_slow = self.state.slow_since.is_finite();
-        if self.model().bodies.iter().any(|body| !body.has_inertia()) {
-            // Their speeds are rates, which are known at the ends of steps.
-            self.state.slow_since = if was_slow { self.state.slow_since } else { step.end };
-            return;
-        }
         let looks = LOOKS.map(|part| step.start + part * (step.end - step.start));
         let fast = looks.iter().rposition(|time| self.excess_speed(plan, *time) >= 0.0);
         let (from, until) = match fast {
@@ -67,21 +65,36 @@ impl Island {
     /// [m/s].
     fn excess_speed(&mut self, plan: &RunPlan, time: f64) -> f64 {
         self.sample(time);
-        excess_speed(plan, self.system.model(), &self.sampled.bodies)
+        let (model, workspace) = self.system.observed();
+        excess_speed(plan, (model, workspace), time, &self.sampled.bodies)
     }
 
     /// When the last of all bodies gets slow between two times of the last step [s].
     fn slowed_down(&mut self, plan: &RunPlan, times: (f64, f64)) -> Option<f64> {
         let Self { system, integrator, .. } = self;
-        let excess = |_: f64, bodies: &[f64], _: &[f64]| excess_speed(plan, system.model(), bodies);
+        let (model, workspace) = system.observed();
+        let excess = |time: f64, bodies: &[f64], _: &[f64]| excess_speed(plan, (model, workspace), time, bodies);
         find_crossing(integrator, times, excess, CrossingDirection::Falling, 1)
     }
 }
 
-/// By how much the fastest material point of all bodies is faster than the speed of rest [m/s].
-fn excess_speed(plan: &RunPlan, model: &Model, state: &[f64]) -> f64 {
+/// By how much the fastest material point of all bodies is faster than the speed of rest [m/s]; the velocity of one
+/// without inertia is a rate.
+fn excess_speed(plan: &RunPlan, (model, workspace): (&Model, &mut Workspace), time: f64, state: &[f64]) -> f64 {
     let slow = plan.stop_at_rest.map_or(f64::INFINITY, |rest| rest.speed);
-    let motion = |index: usize| BodyMotion::read(&model.bodies[index], model.slots(index), state);
-    let speed = |index: usize| fastest_speed(&model.bodies[index], &motion(index));
-    (0..model.bodies.len()).map(speed).fold(0.0, f64::max) - slow
+    let mut slopes = Vec::new();
+    if model.bodies.iter().any(|body| !body.has_inertia()) {
+        slopes.resize(model.dimension(), 0.0);
+        let mut powers = vec![0.0; model.works().len()];
+        if rates(model, workspace, time, state.into(), &mut slopes, &mut powers).is_err() {
+            return f64::NAN;
+        }
+    }
+    let motion = |body: &Body, slots: &Slots| match body.has_inertia() {
+        true => BodyMotion::read(body, slots, state),
+        false => BodyMotion::of_rates(body, slots, state, &slopes),
+    };
+    let bodies = model.bodies.iter().enumerate();
+    let speed = |(index, body): (usize, &Arc<Body>)| fastest_speed(body, &motion(body, model.slots(index)));
+    bodies.map(speed).fold(0.0, f64::max) - slow
 }
