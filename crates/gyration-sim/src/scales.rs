@@ -5,12 +5,14 @@ use gyration::Inadmissible;
 use gyration::acting::Load;
 use gyration::balance::fastest_speed;
 use gyration::body::Body;
+use gyration::contact::Contact;
 use gyration::contractile::Contraction;
 use gyration::dynamics::{Scratch, Workspace, each_push};
 use gyration::instant::{BodyAt, MotionAt};
 use gyration::model::Model;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
+use gyration::support::MotionPart;
 use gyration::tensor::Mat3;
 use gyration_ode::Components;
 use std::convert::Infallible;
@@ -38,7 +40,7 @@ pub(crate) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 ///
 /// A body's own scale is its initial speed or √(g·size), or one size in a period of what drives it. A body that starts
 /// at rest without gravity takes that of the accelerations which contacts, springs and other bodies would give it one
-/// by one, or the speed of a support: where they cancel, what is left is rounding, and so is the stress of a body that
+/// by one, or the speed of a support, as far as it reaches the body: where they cancel, what is left is rounding, and so is the stress of a body that
 /// is only turned. Whatever bodies act on one another, however far they are, may share their motion: each takes the
 /// largest speed among them, as far as their largest momentum would move it. A body that nothing moves takes one size a
 /// second, or a part of the speed of its elastic waves, of which the rounding of its stresses is 1e-16.
@@ -102,8 +104,7 @@ fn pushed(at: &BodyAt, slopes: &[f64], scratch: &mut Scratch) -> Result<f64, Ina
     let acceleration = if acceleration > of_rounding { acceleration } else { 0.0 };
     let mut forces = 0.0;
     each_push(at, scratch, |push| forces += push.force)?;
-    let place = &at.motion.placement.position;
-    let supports = model.contacts_of(index).map(|contact| model.supports[contact.support].motion.bound(place).speed);
+    let supports = model.contacts_of(index).map(|contact| carried_by_plane(at, contact));
     let solids = model.rules().with_supports_of(index).flat_map(|rule| rule.supports.iter());
     let solids = solids.map(|support| model.solid_supports[*support].largest_speed());
     let springs = model.springs_of(index).filter_map(|end| end.interaction.anchor());
@@ -111,6 +112,23 @@ fn pushed(at: &BodyAt, slopes: &[f64], scratch: &mut Scratch) -> Result<f64, Ina
     let anchors = anchors.map(|anchor| anchor.motion.bound(&anchor.start).speed);
     let carried = supports.chain(solids).chain(anchors).fold(0.0, f64::max);
     Ok((acceleration.max(forces / body.solid.mass.mass) * body.size).sqrt().max(carried))
+}
+
+/// The largest speed [m/s] of a plane at a body that starts at rest; of one that moves to and fro no more than its
+/// field can give the body from its foremost place, ½ m v² = W.
+fn carried_by_plane(at: &BodyAt, contact: &Contact) -> f64 {
+    let (body, placement) = (at.body, &at.motion.placement);
+    let support = &at.model.supports[contact.support];
+    let speed = support.motion.bound(&placement.position).speed;
+    let height = (placement.position - support.origin).dot(&support.normal);
+    let distance = height - support.foremost() - body.radius_at(placement);
+    let oscillates = |part: &MotionPart| matches!(part, MotionPart::Oscillation { .. });
+    let Some(surface) = &body.solid.surface else { return speed };
+    if distance <= 0.0 || !support.motion.parts().iter().all(oscillates) {
+        return speed;
+    }
+    let work = contact.law_set.work_beyond(surface.area(), distance, speed);
+    speed.min((2.0 * work / body.solid.mass.mass).sqrt())
 }
 
 /// V |∂S/∂P| of the material of a body at P = 1 [J]; zero without one.

@@ -1,7 +1,7 @@
 //! The run loop: what it sees within long steps, and what it does not hold up.
 
 use gyration_scene::Scene;
-use gyration_sim::{Job, MemorySink, Outcome, Provenance, Simulation, Unwatched};
+use gyration_sim::{Job, MemorySink, Outcome, Provenance, RunSummary, Simulation, Unwatched, Verdict};
 use std::path::Path;
 
 /// Rows, events and counters of a run.
@@ -241,5 +241,40 @@ fn a_plane_far_from_the_origin_costs_no_digits() {
         });
         println!("{shape}: {steps:?} steps");
         assert!(steps.iter().all(|count| *count < steps[0] + steps[0] / 4), "{shape}: {steps:?}");
+    }
+}
+
+/// Symptom: velocities that a shaken plane far off gave a body, some 1e-10 m/s, were off by a third, and its ledger was
+/// open: tolerances went with the speed of the plane.
+#[test]
+fn the_ledger_of_a_body_that_hardly_feels_a_shaken_plane_is_closed() {
+    let mut of_reports = vec![(0.97, 50.0, 1.0, "alpha = 1, nu = 12, d0 = 0.02", 0.2)];
+    for (amplitude, frequency) in [(0.05, 1.0), (0.05, 10.0), (0.09, 1.0), (0.09, 10.0)] {
+        of_reports.push((amplitude, frequency, 0.12, "alpha = 100, nu = 6, d0 = 0.001", 2.0));
+    }
+    for (amplitude, frequency, height, repulsion, end) in of_reports {
+        let mut speeds = Vec::new();
+        for rtol in [1e-12, 1e-6, 1e-8, 1e-10] {
+            let text = format!(
+                "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = {end}, sample = 0.02 }}\n[[support]]\nname = \"s\"\n\
+                 plane = {{}}\nmotion = {{ oscillate = {{ direction = [0, 0, 1], amplitude = {amplitude}, \
+                 frequency = {frequency} }} }}\n[[contact]]\nsupport = \"s\"\nrepulsion = {{ {repulsion} }}\n\
+                 [[body]]\nname = \"a\"\nshape = {{ sphere = {{ radius = 0.02 }} }}\ndensity = 1000\n\
+                 position = [0, 0, {height}]\n"
+            );
+            let overrides = [format!("solver.rtol={rtol}")];
+            let scene = Scene::parse("scene.toml", &text, Path::new(""), &overrides).unwrap();
+            let job = Job::of(&scene, &Provenance { version: "test".into(), commit: None });
+            let mut simulation = Simulation::new(job.model, job.start, job.plan).unwrap();
+            let mut sink = MemorySink::default();
+            simulation.begin(&mut sink).unwrap();
+            let outcome = simulation.run(&mut sink, &mut Unwatched).unwrap();
+            let summary = RunSummary::of(job.model, &mut simulation, outcome, None);
+            assert_eq!(summary.ledger.verdict, Verdict::Closed, "{amplitude} m, {frequency} Hz, rtol {rtol}");
+            speeds.push(simulation.state().motion(job.model, 0).velocity.velocity.z);
+            let off = (speeds.last().unwrap() / speeds[0] - 1.0).abs();
+            println!("{amplitude} m, {frequency} Hz, rtol {rtol}: {:e} m/s, off by {off:.1e}", speeds[0]);
+            assert!(off < f64::max(1e3 * rtol, 1e-6), "{speeds:?}");
+        }
     }
 }

@@ -30,15 +30,6 @@ pub(crate) struct PlaneApproach<'a> {
     pub spin: f64,
 }
 
-/// How far an oscillating support comes forward from its origin along its normal [m].
-fn reach(support: &Support) -> f64 {
-    let forward = |part: &MotionPart| match part {
-        MotionPart::Oscillation { direction, amplitude, .. } => (amplitude * direction.dot(&support.normal)).abs(),
-        MotionPart::Velocity(_) | MotionPart::Rotation { .. } => 0.0,
-    };
-    support.motion.parts().iter().map(forward).sum()
-}
-
 /// How far a support is displaced by its constant velocities [m], and these [m/s].
 fn drift(support: &Support, time: f64) -> (Vec3, Vec3) {
     let velocity = |part: &MotionPart| match part {
@@ -66,7 +57,7 @@ impl<'a> PlaneApproach<'a> {
         let mut velocity = RelativeMotion::to(support, motion, time).velocity;
         if support.motion.oscillates() {
             let (way, speed) = drift(support, time);
-            field.height = (motion.placement.position - support.origin - way).dot(&support.normal) - reach(support);
+            field.height = (motion.placement.position - support.origin - way).dot(&support.normal) - support.foremost();
             velocity = motion.velocity.velocity - speed;
         }
         Self::along(&support.normal, (end, &end.acceleration), (surface, radius), (field, velocity))

@@ -72,6 +72,15 @@ impl Support {
         Self { origin: origin + shift, normal, motion: SupportMotion::default(), ..self.clone() }
     }
 
+    /// How far one that moves to and fro comes forward from its origin along its normal [m].
+    pub fn foremost(&self) -> f64 {
+        let forward = |part: &MotionPart| match part {
+            MotionPart::Oscillation { direction, amplitude, .. } => (amplitude * direction.dot(&self.normal)).abs(),
+            MotionPart::Velocity(_) | MotionPart::Rotation { .. } => 0.0,
+        };
+        self.motion.parts().iter().map(forward).sum()
+    }
+
     /// Where it is at a time [s].
     #[inline]
     pub fn at(&self, time: f64) -> PlaneAt {
