@@ -177,6 +177,25 @@ fn other_overrides_are_told_before_other_files() {
     }
 }
 
+/// What may differ between a run and its resumption need not be repeated.
+#[test]
+fn overrides_that_may_differ_are_not_asked_for() {
+    let sandbox = tempfile::tempdir().unwrap();
+    let folder = sandbox.path();
+    MESH.write(folder, MESH.content);
+    let of = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+        Scene::parse("case.toml", MESH.text, folder, &overrides).unwrap()
+    };
+    let scene = of(&["time.end=0.3", "solver.max_wall_time=60", "solver.threads=1"]);
+    Job::of(&scene, &provenance()).record(&recording(folder), &mut StopAfter(1)).unwrap();
+    match Job::of(&of(&["solver.threads=2"]), &provenance()).resume(&recording(folder), &mut Unwatched) {
+        Err(RunError::OtherScene { fix, .. }) => assert_eq!(fix, "repeat --set 'time.end=0.3'"),
+        other => panic!("{other:?}"),
+    }
+    Job::of(&of(&["time.end=0.3"]), &provenance()).resume(&recording(folder), &mut Unwatched).unwrap();
+}
+
 /// Changes the attributes of a recording by hand.
 fn edit(path: &Path, change: impl FnOnce(&mut serde_json::Map<String, Value>)) {
     let metadata = path.join("zarr.json");

@@ -16,6 +16,8 @@ use std::path::Path;
 
 /// The attribute of recordings without checksums of files in which the start of all bodies stands.
 const PLACES: &str = "places";
+/// The keys of `solver` that may differ between a run and its resumption.
+const MAY_DIFFER: [&str; 2] = ["max_wall_time", "threads"];
 
 impl Job<'_> {
     /// Whether a recording is of this scene, whatever its `solver.max_wall_time` and `solver.threads`.
@@ -52,7 +54,12 @@ impl Job<'_> {
 /// The overrides with which a recording goes on.
 fn repeated(recorded: &Attributes) -> String {
     let overrides = recorded.get("overrides").and_then(Value::as_array).into_iter().flatten();
-    let set = overrides.filter_map(Value::as_str).map(|text| format!(" --set '{text}'")).collect::<String>();
+    let may_differ = |text: &&str| {
+        let key = text.split('=').next().unwrap_or_default().trim();
+        MAY_DIFFER.iter().any(|name| key.strip_prefix("solver.") == Some(name))
+    };
+    let needed = overrides.filter_map(Value::as_str).filter(|text| !may_differ(text));
+    let set = needed.map(|text| format!(" --set '{text}'")).collect::<String>();
     if set.is_empty() { "it was made without --set".to_owned() } else { format!("repeat{set}") }
 }
 
@@ -60,8 +67,9 @@ fn repeated(recorded: &Attributes) -> String {
 fn comparable(attributes: &Attributes) -> Option<(Value, Value)> {
     let mut resolved = attributes.get("resolved")?.clone();
     if let Some(solver) = resolved.get_mut("solver").and_then(Value::as_object_mut) {
-        solver.remove("max_wall_time");
-        solver.remove("threads");
+        for name in MAY_DIFFER {
+            solver.remove(name);
+        }
     }
     let outlines = attributes.get("outlines").unwrap_or(&Value::Null);
     Some((resolved, [attributes.get("bodies")?, outlines].into_iter().cloned().collect()))

@@ -95,7 +95,7 @@ fn write_rests(text: &mut String, pairs: &[&PairSurvey], deforms: bool) {
     let verb = if stable().any(|rest| rest.descent.is_some()) { "go down the slope" } else { "rest" };
     let _ = writeln!(text, "    {verb} at gaps of {} m {if_so}", between(stable().map(|rest| rest.gap)));
     let lines: [(&str, OfRest, &str); 9] = [
-        ("sliding in the end at", |rest| rest.descent?.speed(), " m/s"),
+        ("sliding steadily at", |rest| rest.descent?.speed(), " m/s"),
         ("stiffness", |rest| Some(rest.stiffness), " N/m"),
         ("period", |rest| rest.period, " s"),
         ("damping ratio", |rest| rest.damping_ratio, ""),

@@ -120,7 +120,12 @@ fn write_gap(text: &mut String, rest: &RestGap, deforms: bool) {
     let _ = match rest.descent {
         None => writeln!(text, "    rests at a gap of {gap} m {if_so}"),
         Some(Descent::Slides { speed }) => {
-            writeln!(text, "    slides down the slope at {} m/s in the end, at a gap of {gap} m {if_so}", short(speed))
+            // Rocking and friction may excite each other: a steady slide need not be what comes.
+            writeln!(
+                text,
+                "    slides down the slope at {} m/s once it is steady, at a gap of {gap} m {if_so}",
+                short(speed)
+            )
         }
         Some(Descent::Accelerates { acceleration }) => {
             let along = short(acceleration);
