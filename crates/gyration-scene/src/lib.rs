@@ -40,7 +40,7 @@ mod unknown;
 
 pub use assemble::{
     Built, CellBlock, CellLoad, ENDLESS_CELLS, Packet, Plan, Record, StartingWave, StopAtRest, TRIANGLES, UnitCell,
-    WaveStart,
+    WaveRun, WaveStart,
 };
 pub use error::{ErrorKind, LoadError, NotToml, ReadError, SceneError, SceneErrors};
 pub use file::{Method, Recorded};

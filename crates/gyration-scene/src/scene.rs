@@ -1,6 +1,6 @@
 //! A scene: read → check → build, all errors at once.
 
-use crate::assemble::{Built, WaveStart};
+use crate::assemble::{Built, WaveRun, WaveStart};
 use crate::document::Diagnostics;
 use crate::error::{ErrorKind, NotToml, SceneErrors};
 use crate::file::{Behaviour, LatticeWave, OneOrMany, SceneFile};
@@ -124,14 +124,14 @@ impl Scene {
     }
 
     /// The scene with the forms that are asked for here, each of a body of the model, and with its waves, which are
-    /// asked for at last: the first state, and where each body rests.
+    /// asked for at last: how the run begins with them.
     ///
     /// # Errors
     /// Why a surface has no resistance, at the key of its shape; why a wave is none, at its key.
     pub fn complete(
         mut self,
         mut form: impl FnMut(&Body, &UnknownForm) -> Result<Form, NoForm>,
-        start: impl FnOnce(&Model, &WaveStart) -> Result<(State, Vec<Vec3>), NoWave>,
+        start: impl FnOnce(&Model, &WaveStart) -> Result<WaveRun, NoWave>,
     ) -> Result<Self, SceneErrors> {
         let Some(Unknown { forms, document }) = self.unknown.take().map(|unknown| *unknown) else { return Ok(self) };
         let mut diagnostics = Diagnostics::of(ErrorKind::Value);
@@ -153,9 +153,12 @@ impl Scene {
         }
         if let Some(waves) = self.built.waves.take().filter(|_| diagnostics.is_empty()) {
             match start(&self.built.model, &waves) {
-                Ok((state, places)) => {
+                Ok(WaveRun { model, state, strain }) => {
+                    self.built.model = model;
                     self.built.state = state;
-                    self.built.model = self.built.model.resting_at(places);
+                    if let (Some(strain), Some(cell)) = (strain, &mut self.built.cell) {
+                        *cell = cell.at_rest(&strain);
+                    }
                 }
                 Err(NoWave { wave, key: word, problem, help, is_interrupted }) => {
                     let mut key = Key::root().key("lattice").key("wave");

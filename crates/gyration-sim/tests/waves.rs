@@ -137,3 +137,41 @@ fn displacements_are_recorded_from_the_rest() {
     // All cells have the same rest, each in its own place.
     assert!((0..8).all(|cell| rest(cell) == rest(0) && rest(8 + cell).x == 0.5), "{:?}", rest(0));
 }
+
+/// A chain whose bonds are too long for its cell, which opens to a = l₀ + q/k: it swings there with ω = 2√(k/m) sin(πκ).
+#[test]
+fn a_wave_starts_in_cells_whose_vectors_rest() {
+    let pulled = 0.5;
+    let text = |relax: &str| {
+        format!(
+            "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 20, sample = 20 }}\n[lattice]\ncell = [[0.1, 0, 0]]\n\
+             repeat = [8, 1, 1]\n{relax}\nwave = {{ kappa = [0.25, 0, 0], branch = 2, amplitude = 1e-7 }}\n[[body]]\n\
+             name = \"a\"\nshape = {{ points = [{{ mass = 2, at = [0, 0, 0] }}] }}\n[[bond]]\n\
+             between = [\"a\", \"a\"]\ncell = [1, 0, 0]\nlaw = \"0.5*10*(l - 0.12)^2\"\n"
+        )
+    };
+    let relax = format!("relax = [\"granules\", \"cell\"]\nstress = [[{pulled}, 0, 0], [0, 0, 0], [0, 0, 0]]");
+    let scene = complete(parsed(&text(&relax), &[])).unwrap();
+    let built = scene.built();
+    let vector = built.model.lattice.vectors()[0].x;
+    assert!((vector - 0.17).abs() < 1e-12, "{vector}");
+    let job = gyration_sim::Job::of(&scene, &crate::runs::provenance());
+    let mut simulation = gyration_sim::Simulation::new(job.model, job.start, job.plan).unwrap();
+    let mut sink = gyration_sim::MemorySink::default();
+    simulation.begin(&mut sink).unwrap();
+    simulation.run(&mut sink, &mut gyration_sim::Unwatched).unwrap();
+    let omega = 2.0 * 5.0_f64.sqrt() * (0.25 * std::f64::consts::PI).sin();
+    let end = simulation.state();
+    for body in 0..8 {
+        let moved = |state: &gyration::state::State| {
+            state.motion(job.model, body).placement.position - job.model.rest_place(body).unwrap()
+        };
+        let [start, end] = [moved(job.start), moved(&end)].map(|way| way.x);
+        // The wave runs on by ωt.
+        let phase = std::f64::consts::FRAC_PI_2 * body as f64;
+        let ahead = [0.0, omega * 20.0].map(|late| 1e-7 * (phase - late).cos());
+        println!("body {body}: {start:e} {end:e} for {ahead:?}");
+        assert!((start.abs() - ahead[0].abs()).abs() < 1e-14);
+        assert!((end.abs() - ahead[1].abs()).abs() < 1e-12, "{body}: {end:e} {:e}", ahead[1]);
+    }
+}

@@ -48,7 +48,7 @@ pub(crate) use context::SceneContext;
 pub use fluid::TRIANGLES;
 pub use images::ENDLESS_CELLS;
 pub(crate) use salvage::salvage;
-pub use wave::{Packet, StartingWave, WaveStart};
+pub use wave::{Packet, StartingWave, WaveRun, WaveStart};
 
 use crate::check::{PartialScene, Reporter};
 use crate::file::{self, Method, Recorded, Solver, Time};
@@ -145,6 +145,14 @@ pub struct UnitCell {
     pub relaxes: bool,
     /// Under which load its vectors seek theirs too, if they do.
     pub load: Option<CellLoad>,
+}
+
+impl UnitCell {
+    /// The cell whose vectors rest at F̄: its bodies move along.
+    pub(crate) fn at_rest(&self, strain: &Mat3) -> Self {
+        let (model, state) = self.model.carried(&self.state, strain, self.model.lattice.deformed(strain));
+        Self { model, state, load: None, ..self.clone() }
+    }
 }
 
 /// The cells of a run.

@@ -8,6 +8,9 @@ use super::lattice::Cells;
 use crate::check::Reporter;
 use crate::file::{self, LatticeWave};
 use crate::key::Key;
+use gyration::model::Model;
+use gyration::state::State;
+use gyration::tensor::Mat3;
 
 /// κ times the number of cells may be this far from a whole number: the rounding of a fraction.
 const WHOLE: f64 = 1e-6;
@@ -25,6 +28,17 @@ pub struct WaveStart {
     pub ring: [bool; 3],
     /// All of them, which add.
     pub waves: Vec<StartingWave>,
+}
+
+/// A run that begins with waves.
+#[derive(Debug, Clone)]
+pub struct WaveRun {
+    /// Its model, which knows where bodies rest.
+    pub model: Model,
+    /// Its first state.
+    pub state: State,
+    /// F̄ at which the vectors of its cells have come to rest; none where they are as written.
+    pub strain: Option<Mat3>,
 }
 
 /// A wave, or all of them.

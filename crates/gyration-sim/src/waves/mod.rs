@@ -11,14 +11,14 @@ mod logarithm;
 mod passing;
 
 use crate::modes::Rest;
-use crate::modes::bands::{BandShape, Branch, LatticeWaves, NoBands, unit_phase};
+use crate::modes::bands::{BandShape, Branch, LatticeWaves, NoBands, StrainedCell, unit_phase};
 use exponential::exponential;
 use gyration::body::{Body, BodyKind, Slots};
 use gyration::kinematics::{Placement, Quaternion, Velocity};
 use gyration::model::Model;
 use gyration::state::{RigidStart, Start, State};
 use gyration::tensor::{Mat3, Vec3, axial};
-use gyration_scene::{NoWave, Packet, StartingWave, Uniform, WaveStart};
+use gyration_scene::{NoWave, Packet, StartingWave, Uniform, WaveRun, WaveStart};
 use gyration_threads::Interruption;
 use nalgebra::{Complex, ComplexField, Matrix3, Vector3};
 
@@ -34,11 +34,11 @@ pub(crate) const LARGEST: f64 = 1.0;
 /// Coordinates within this part of the fastest are as fast: rounding does not choose.
 const AS_FAST: f64 = 1e-6;
 
-/// The state of a run that starts with waves, and where its bodies rest without them [m].
+/// The run that starts with waves, from where its bodies rest without them, in cells whose vectors rest if they are to.
 ///
 /// # Errors
 /// [`NoWave`].
-pub fn start(model: &Model, asked: &WaveStart) -> Result<(State, Vec<Vec3>), NoWave> {
+pub fn start(model: &Model, asked: &WaveStart) -> Result<WaveRun, NoWave> {
     let cell = &asked.cell;
     let fault = |problem: String, help| NoWave { wave: None, key: None, problem, help, is_interrupted: false };
     if cell.model.bodies.len() > MOST_BODIES {
@@ -46,11 +46,16 @@ pub fn start(model: &Model, asked: &WaveStart) -> Result<(State, Vec<Vec3>), NoW
         let problem = format!("{many} bodies lie side by side between free ends, and waves are found of {MOST_BODIES}");
         return Err(fault(problem, "make it a packet with a κ along them, or repeat fewer cells along what is free"));
     }
-    if cell.load.is_some() {
-        let problem = "a run keeps the cell vectors as they are written, and `relax` lets them go".to_owned();
-        return Err(fault(problem, "leave \"cell\" out of `relax`, and write the vectors at which the cell rests"));
-    }
-    let waves = LatticeWaves::new(&cell.model, &cell.state, cell.relaxes).map_err(|error| none(error, None))?;
+    let (waves, strain) = match cell.load {
+        None => (LatticeWaves::new(&cell.model, &cell.state, cell.relaxes), None),
+        Some(load) => {
+            let rest = StrainedCell::new(&cell.model, &cell.state).at_rest(load).map_err(|error| none(error, None))?;
+            (rest.at(&Mat3::identity()).map(|(_, waves)| waves), Some(*rest.rest()))
+        }
+    };
+    let waves = waves.map_err(|error| none(error, None))?;
+    let carried = strain.map(|strain| model.clone().with_cells_deformed(&strain, model.lattice.deformed(&strain)));
+    let model = carried.as_ref().unwrap_or(model);
     if waves.contracts() {
         let problem = "a body drives its own contraction, which a wave does not set".to_owned();
         return Err(fault(problem, "leave the wave out, or prescribe the contraction"));
@@ -65,7 +70,8 @@ pub fn start(model: &Model, asked: &WaveStart) -> Result<(State, Vec<Vec3>), NoW
         return Err(fault(problem, "give the waves less amplitude or energy, or hold what turns almost freely"));
     }
     let place = |body| moved.rests()[moved.origin(body).0].placement.position;
-    Ok((moved.state(model), (0..model.bodies.len()).map(place).collect()))
+    let places: Vec<Vec3> = (0..model.bodies.len()).map(place).collect();
+    Ok(WaveRun { model: model.clone().resting_at(places), state: moved.state(model), strain })
 }
 
 /// Why there is no wave, where there are no bands.

@@ -5,7 +5,7 @@ use super::{LatticeWaves, NoBands};
 use gyration::lattice::Lattice;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration::tensor::{Mat3, Vec3};
+use gyration::tensor::Mat3;
 
 /// Halvings of the step in which a lattice becomes unstable: all digits that s has.
 const HALVINGS: usize = 46;
@@ -96,19 +96,6 @@ impl StrainPath {
     }
 }
 
-/// Cells that have gone to F x, with their bodies.
-fn carried((model, state): (&Model, &State), strain: &Mat3, lattice: Lattice) -> (Model, State) {
-    let model = model.clone().with_cells_deformed(strain, lattice);
-    let mut state = State { low: Vec::new(), ..state.clone() };
-    for body in 0..model.bodies.len() {
-        let place = &mut state.bodies[model.slots(body).position()];
-        if let [x, y, z] = *place {
-            place.copy_from_slice((strain * Vec3::new(x, y, z)).as_slice());
-        }
-    }
-    (model, state)
-}
-
 /// Which entry a name means.
 fn component(name: &str) -> Option<[usize; 2]> {
     let axis = |letter: char| "xyz".find(letter);
@@ -172,7 +159,7 @@ impl StrainedCell {
         if let Some(body) = self.model.leaves_guide(&step) {
             return Err(NoBands::Guide(self.model.name(body).to_owned()));
         }
-        let (model, mut state) = carried((&self.model, &self.state), &step, self.written.deformed(gradient));
+        let (model, mut state) = self.model.carried(&self.state, &step, self.written.deformed(gradient));
         let waves = LatticeWaves::new(&model, &state, true)?;
         for (body, rest) in waves.rest().bodies.iter().enumerate() {
             let start = model.slots(body).block().start;
@@ -184,7 +171,12 @@ impl StrainedCell {
     /// The cells of a run, of which this is one, where the vectors of this one have come to rest: their bodies move
     /// along.
     pub fn carry(&self, model: &Model, state: &State) -> (Model, State) {
-        carried((model, state), &self.rest, model.lattice.deformed(&self.rest))
+        model.carried(state, &self.rest, model.lattice.deformed(&self.rest))
+    }
+
+    /// F̄ at which the vectors have come to rest; the identity where they are as written.
+    pub fn rest(&self) -> &Mat3 {
+        &self.rest
     }
 
     /// The vectors as they are written.
