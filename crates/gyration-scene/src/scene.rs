@@ -12,8 +12,6 @@ use crate::unknown::{FIX, GIVEN_UP, NoForm, NoWave, PATIENCE, Unknown, UnknownFo
 use gyration::body::Body;
 use gyration::fluid::Form;
 use gyration::model::Model;
-use gyration::state::State;
-use gyration::tensor::Vec3;
 use gyration_files::Files;
 use serde_json::Value;
 use std::collections::BTreeSet;

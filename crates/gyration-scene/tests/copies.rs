@@ -381,6 +381,8 @@ fn springs_join_any_two_of_groups() {
     assert_error(&text, "spring.0.between", "both name one body, and no pair", "besides");
     let text = balls(3) + &spring("[\"hub\", ", "§\"stel\"]");
     assert_error(&text, "spring.0.between.1", "no body or group \"stel\"", "did you mean `steel`");
-    let text = balls(1001) + &spring("§[\"grain\", ", "\"grain\"]");
+    let text = balls(3) + &spring("[\"grain-1\", ", "§\"grain-1\"]");
+    assert_error(&text, "spring.0.between.1", "both ends are at the body", "two different");
+    let text = balls(1500) + &spring("§[\"grain\", ", "\"grain\"]");
     assert_error(&text, "spring.0.between", "more than 1000000 springs", "name fewer");
 }

@@ -6,12 +6,13 @@
 //! | closest approach | rate of the smallest gap, n·(ṗ(X_c) − support's velocity) | − → + |
 //! | lift-off         | |contact force| − 1 % of the weight (or of m v²/size)      | + → − |
 //!
-//! An event is found by a change of sign between the quarters of a step, or finer parts where a body turns far, a
-//! lift-off between its ends, and located on the dense output. Speeds below 1e-6 of the body's speed scale are taken for rest: a body that has settled gives no
-//! events, and one that passes through rest keeps the sign that it had before. Two events of one kind within such a part
-//! of a step cancel and go unseen; so does a touch within one step, which the error control resolves into several steps
-//! unless its force does not matter. A body without inertia is carried, not thrown: it has no events. A pinned body has
-//! no apex: its centre goes round the pin.
+//! An event is found by a change of sign between the quarters of a step, or finer parts where a body turns far, and
+//! located on the dense output; a lift-off between its ends, and within where a body that nothing else pulls at is
+//! pushed at both. Speeds below 1e-6 of the body's speed scale are taken for rest: a body that has settled gives no
+//! events, and one that passes through rest keeps the sign that it had before. Two events of one kind within such a
+//! part of a step cancel and go unseen; so does a touch within one step, which the error control resolves into several
+//! steps unless its force does not matter. A body without inertia is carried, not thrown: it has no events. A pinned
+//! body has no apex: its centre goes round the pin.
 
 use gyration::dynamics::nearest;
 use gyration::instant::PairGaps;
@@ -115,8 +116,12 @@ pub fn lift_off(model: &Model, body: usize, force: f64, speed: f64) -> f64 {
     if !model.has_contact(body) || !this.has_inertia() {
         return f64::NAN;
     }
-    let gravity = model.gravity.norm();
-    let weight = this.solid.mass.mass * if gravity > 0.0 { gravity } else { speed * speed / this.size };
     // Any crossing counts: the force has no rest level to be filtered against.
-    (force / (LEFT * weight) - 1.0) / f64::EPSILON
+    (force / parting_force(model, body, speed) - 1.0) / f64::EPSILON
+}
+
+/// The contact force below which a body has left what it touched, given its speed scale [N].
+pub fn parting_force(model: &Model, body: usize, speed: f64) -> f64 {
+    let (this, gravity) = (&model.bodies[body], model.gravity.norm());
+    LEFT * this.solid.mass.mass * if gravity > 0.0 { gravity } else { speed * speed / this.size }
 }

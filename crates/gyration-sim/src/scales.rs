@@ -40,10 +40,11 @@ pub(crate) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 ///
 /// A body's own scale is its initial speed or √(g·size), or one size in a period of what drives it. A body that starts
 /// at rest without gravity takes that of the accelerations which contacts, springs and other bodies would give it one
-/// by one, or the speed of a support, as far as it reaches the body: where they cancel, what is left is rounding, and so is the stress of a body that
-/// is only turned. Whatever bodies act on one another, however far they are, may share their motion: each takes the
-/// largest speed among them, as far as their largest momentum would move it. A body that nothing moves takes one size a
-/// second, or a part of the speed of its elastic waves, of which the rounding of its stresses is 1e-16.
+/// by one, or the speed of a support, as far as it reaches the body: where they cancel, what is left is rounding, and
+/// so is the stress of a body that is only turned. Whatever bodies act on one another, however far they are, may share
+/// their motion: each takes the largest speed among them, as far as their largest momentum would move it. A body that
+/// nothing moves takes one size a second, or a part of the speed of its elastic waves, of which the rounding of its
+/// stresses is 1e-16.
 ///
 /// # Errors
 /// [`Inadmissible`] if the start is outside the model.
@@ -120,8 +121,11 @@ fn carried_by_plane(at: &BodyAt, contact: &Contact) -> f64 {
     let (body, placement) = (at.body, &at.motion.placement);
     let support = &at.model.supports[contact.support];
     let speed = support.motion.bound(&placement.position).speed;
+    if speed == 0.0 {
+        return 0.0;
+    }
     let height = (placement.position - support.origin).dot(&support.normal);
-    let distance = height - support.foremost() - body.radius_at(placement);
+    let distance = height - support.forward_amplitude() - body.radius_at(placement);
     let oscillates = |part: &MotionPart| matches!(part, MotionPart::Oscillation { .. });
     let Some(surface) = &body.solid.surface else { return speed };
     if distance <= 0.0 || !support.motion.parts().iter().all(oscillates) {

@@ -248,16 +248,16 @@ fn a_plane_far_from_the_origin_costs_no_digits() {
 /// open: tolerances went with the speed of the plane.
 #[test]
 fn the_ledger_of_a_body_that_hardly_feels_a_shaken_plane_is_closed() {
-    let mut of_reports = vec![(0.97, 50.0, 1.0, "alpha = 1, nu = 12, d0 = 0.02", 0.2)];
+    let mut shaken = vec![(0.97, 50.0, 1.0, "alpha = 1, nu = 12, d0 = 0.02", 0.2)];
     for (amplitude, frequency) in [(0.05, 1.0), (0.05, 10.0), (0.09, 1.0), (0.09, 10.0)] {
-        of_reports.push((amplitude, frequency, 0.12, "alpha = 100, nu = 6, d0 = 0.001", 2.0));
+        shaken.push((amplitude, frequency, 0.12, "alpha = 100, nu = 6, d0 = 0.001", 2.0));
     }
-    for (amplitude, frequency, height, repulsion, end) in of_reports {
+    for (amplitude, frequency, height, repulsion, end) in shaken {
         let mut speeds = Vec::new();
         for rtol in [1e-12, 1e-6, 1e-8, 1e-10] {
             let text = format!(
-                "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = {end}, sample = 0.02 }}\n[[support]]\nname = \"s\"\n\
-                 plane = {{}}\nmotion = {{ oscillate = {{ direction = [0, 0, 1], amplitude = {amplitude}, \
+                "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = {end}, sample = 0.02 }}\n\
+                 [[support]]\nname = \"s\"\nplane = {{}}\nmotion = {{ oscillate = {{ direction = [0, 0, 1], amplitude = {amplitude}, \
                  frequency = {frequency} }} }}\n[[contact]]\nsupport = \"s\"\nrepulsion = {{ {repulsion} }}\n\
                  [[body]]\nname = \"a\"\nshape = {{ sphere = {{ radius = 0.02 }} }}\ndensity = 1000\n\
                  position = [0, 0, {height}]\n"

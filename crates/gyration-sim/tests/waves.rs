@@ -138,7 +138,8 @@ fn displacements_are_recorded_from_the_rest() {
     assert!((0..8).all(|cell| rest(cell) == rest(0) && rest(8 + cell).x == 0.5), "{:?}", rest(0));
 }
 
-/// A chain whose bonds are too long for its cell, which opens to a = l₀ + q/k: it swings there with ω = 2√(k/m) sin(πκ).
+/// A chain whose bonds are too long for its cell, which opens to a = l₀ + q/k: it swings there with ω = 2√(k/m)
+/// sin(πκ).
 #[test]
 fn a_wave_starts_in_cells_whose_vectors_rest() {
     let pulled = 0.5;

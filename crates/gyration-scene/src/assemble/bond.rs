@@ -27,9 +27,9 @@ const SEMIDEFINITE: f64 = 1e-12;
 const PARALLEL: f64 = 1e-12;
 
 /// The units of a stiffness: of places, of places by turns, of turns.
-const OF_STIFFNESS: [Unit; 3] = [Unit::FORCE_PER_LENGTH, Unit::FORCE, Unit::TORQUE];
+const OF_STIFFNESS: [Unit; 3] = [Unit::FORCE_PER_LENGTH, Unit::FORCE_PER_ANGLE, Unit::TORQUE_PER_ANGLE];
 /// Those of a damping.
-const OF_DAMPING: [Unit; 3] = [Unit::FORCE_PER_VELOCITY, Unit::IMPULSE, Unit::TORQUE_PER_RATE];
+const OF_DAMPING: [Unit; 3] = [Unit::FORCE_PER_VELOCITY, Unit::FORCE_PER_RATE, Unit::TORQUE_PER_RATE];
 
 /// The bonds; notes what is wrong with them.
 pub(super) fn bonds(

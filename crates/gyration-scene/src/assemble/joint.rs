@@ -20,6 +20,9 @@ use gyration::tensor::{Mat3, Vec3};
 use std::collections::HashMap;
 use std::sync::Arc;
 
+/// Entries of a direction that differ by this part of the largest are equal.
+const EQUAL: f64 = 1e-9;
+
 /// A joint and where it stands in the file.
 #[derive(Debug, Clone)]
 pub(super) struct PlacedJoint {
@@ -246,8 +249,15 @@ impl Written<'_> {
     /// bodies that deform are told, the first body says.
     fn frames(&self, axis: &Vec3, kind: JointKind) -> [Mat3; 2] {
         let [one, other] = [0, 1].map(|end| self.ends[end].placement().gradient);
-        let of_body = if self.ends[0].body.is_some() { one } else { other };
-        let frame = frame_beside(&(one * axis), &of_body);
+        let in_space = one * axis;
+        let (gradient, own) = match self.ends[0].body.is_some() {
+            true => (one, *axis),
+            false => (other, other.try_inverse().unwrap_or_else(Mat3::identity) * in_space),
+        };
+        // Of axes that are as little along it the first, whatever the rounding of a turn.
+        let least = own.abs().min() + EQUAL * own.amax();
+        let least = (0..3).find(|k| own[*k].abs() <= least).unwrap_or(0);
+        let frame = frame_beside(&in_space, &gradient.column(least).into_owned());
         let angle = if kind == JointKind::Hinge { self.angle(axis) } else { 0.0 };
         // P of a body that starts has an inverse.
         let seen = |gradient: Mat3, frame: Mat3| gradient.try_inverse().unwrap_or_else(Mat3::identity) * frame;

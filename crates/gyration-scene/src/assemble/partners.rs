@@ -4,13 +4,15 @@ use super::body::AssembledBody;
 use crate::check::{CopyNames, PartialScene, Reporter};
 use crate::file::Contact;
 use crate::key::Key;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Supports and groups by name.
 pub(super) struct Names<'a> {
     supports: HashMap<&'a str, usize>,
     /// The bodies of a group, well formed or not, ascending; a body's own name is a group of one.
     groups: HashMap<&'a str, Vec<usize>>,
+    /// The names of bodies, well formed or not.
+    bodies: HashSet<&'a str>,
     copies: &'a CopyNames,
     /// Whether name and groups of every body are written as they must be.
     are_known: bool,
@@ -43,7 +45,8 @@ impl<'a> Names<'a> {
             }
         }
         let are_known = partial.roll.iter().all(|body| body.are_known);
-        Self { supports, groups, copies: &partial.copy_names, are_known }
+        let bodies = partial.bodies.iter().map(|body| body.value.name.as_str()).collect();
+        Self { supports, groups, bodies, copies: &partial.copy_names, are_known }
     }
 
     /// Whether it is known of every body which groups it is in.
@@ -51,17 +54,9 @@ impl<'a> Names<'a> {
         self.are_known
     }
 
-    /// The pairs of two different bodies that two words name, each once, in the order of the words; none where one names
-    /// nothing.
-    pub fn pairs(&self, words: [&str; 2]) -> Option<impl Iterator<Item = [usize; 2]>> {
-        let [one, other] = [self.group(words[0])?, self.group(words[1])?];
-        let is_in = |set: &[usize], body: usize| set.binary_search(&body).is_ok();
-        let all = one.clone().into_iter().flat_map({
-            let other = other.clone();
-            move |first| other.clone().into_iter().map(move |second| [first, second])
-        });
-        let stands_twice = move |[a, b]: [usize; 2]| is_in(&one, b) && is_in(&other, a);
-        Some(all.filter(move |[a, b]| a < b || (a != b && !stands_twice([*a, *b]))))
+    /// Whether a word names a group, and no body of that name.
+    pub fn is_group(&self, word: &str) -> bool {
+        self.groups.contains_key(word) && (!self.bodies.contains(word) || self.copies.has(word))
     }
 
     /// The bodies that a word names; none if it names none.

@@ -14,8 +14,7 @@ use gyration::tensor::Vec3;
 /// The most springs that one of the file stands for.
 const MOST: usize = 1_000_000;
 
-/// The springs between bodies, or between any two different ones of groups; notes those that start without a
-/// direction.
+/// The springs between bodies, or between any two different ones of groups; notes those that start without a direction.
 pub(super) fn springs(
     partial: &PartialScene,
     assembled: &[Option<AssembledBody>],
@@ -36,10 +35,10 @@ pub(super) fn springs(
             damping: value.damping.value(),
         };
         let points: [Vec3; 2] = value.points.each_ref().map(si);
-        let pairs = pairs(placed, (partial, &names), cell, reporter);
+        let pairs = pairs(placed, &names, cell, reporter);
         for end in 0..2 {
-            let points_mass = |pair: &[usize; 2]| assembled[pair[end]].as_ref().is_some_and(|it| it.body.is_point());
-            if pairs.iter().any(points_mass) {
+            let is_point = |pair: &[usize; 2]| assembled[pair[end]].as_ref().is_some_and(|it| it.body.is_point());
+            if pairs.iter().any(is_point) {
                 lever(&points[end], &key.key("points").index(end), reporter);
             }
         }
@@ -66,30 +65,29 @@ pub(super) fn springs(
     partial.springs.iter().flat_map(spring).collect()
 }
 
-/// The bodies between which a spring of the file stands; in another cell of a lattice any two of them. Notes if there
-/// are none, or too many.
+/// The bodies between which a spring of the file stands: any two different ones that its words name, each pair once; in
+/// another cell of a lattice any two. Notes if there are none, or too many.
 fn pairs(
     Placed { key, value, .. }: &Placed<file::SpringBetween>,
-    (partial, names): (&PartialScene, &Names<'_>),
+    names: &Names<'_>,
     cell: Cell,
     reporter: &mut Reporter<'_>,
 ) -> Vec<[usize; 2]> {
     let words = value.between.each_ref().map(String::as_str);
     let [Some(one), Some(other)] = words.map(|word| names.group(word)) else { return Vec::new() };
     let key = key.key("between");
-    if one.len() * other.len() > MOST {
-        let message = format!("{} bodies by {} are more than {MOST} springs", one.len(), other.len());
+    let is_in = |set: &[usize], body: usize| set.binary_search(&body).is_ok();
+    // Of two that both words name the first comes first.
+    let stands = |[a, b]: &[usize; 2]| a < b || (a != b && !(is_in(&one, *b) && is_in(&other, *a)));
+    let all = one.iter().flat_map(|first| other.iter().map(|second| [*first, *second]));
+    let pairs: Vec<[usize; 2]> = all.filter(|pair| cell != HERE || stands(pair)).take(MOST + 1).collect();
+    if pairs.len() > MOST {
+        let message = format!("{} bodies and {} have more than {MOST} springs", one.len(), other.len());
         reporter.note(&key, message, "name fewer, or let a `contact` with adhesion hold them together");
         return Vec::new();
     }
-    if cell != HERE {
-        return one.iter().flat_map(|first| other.iter().map(|second| [*first, *second])).collect();
-    }
-    let pairs: Vec<[usize; 2]> = names.pairs(words).into_iter().flatten().collect();
-    // One body that is named twice has been noted.
-    let is_body = |word: &str| partial.bodies.iter().any(|body| body.value.name == word);
-    let is_noted = words[0] == words[1] && is_body(words[0]) && !partial.copy_names.has(words[0]);
-    if pairs.is_empty() && !is_noted {
+    // One body that is named twice by its own name has been noted.
+    if pairs.is_empty() && (words[0] != words[1] || names.is_group(words[0])) {
         reporter.note(&key, "both name one body, and no pair", "name another body or group besides");
     }
     pairs

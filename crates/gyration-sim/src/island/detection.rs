@@ -1,8 +1,8 @@
 //! Detects the events of a step.
 //!
-//! The signals are looked at on the quarters of the step, and on more parts where a body that is no ball turns by more
-//! than half a right angle, on its interpolant, which costs no evaluation of the rates. Where one changes its sign from a significant value to another, the crossing is closed in. Neither the steps nor the
-//! samples have a part in this.
+//! The signals are looked at on the quarters of the step, and on more parts where a body that is no ball turns far, on
+//! its interpolant, which costs no evaluation of the rates. Where one changes its sign from a significant value to
+//! another, the crossing is closed in. Neither the steps nor the samples have a part in this.
 //!
 //! A force is known at the ends of a step. Between two at which a body is pushed, it may have left its support all the
 //! same: where the acceleration of the interpolant says that the force may be small, it is asked for.
@@ -12,7 +12,6 @@ use crate::events::{self, APEX, CLOSEST_APPROACH, Event, FoundEvent, LIFT_OFF, S
 use crate::island::Island;
 use crate::island::step_end::StepEnd;
 use crate::outcome::Stop;
-use gyration::balance::observe;
 use gyration::dynamics::acting;
 use gyration::instant::PairGaps;
 use gyration::state::{BodyMotion, State};
@@ -24,10 +23,13 @@ const PARTS: usize = 4;
 /// it is high is down for twice as long before its face lies flat.
 const TURN: f64 = std::f64::consts::PI / 16.0;
 
-/// Half a difference of velocities over a step.
+/// Half the time between two velocities of which an acceleration is the difference, as a part of the step.
 const DIFFERENCE: f64 = 1e-3;
-/// A force is looked at that seems to be below this part of that at the end of the step, or of the weight.
-const SMALL: [f64; 2] = [0.02, 0.2];
+/// A force is asked for that seems to be below this part of that at the end of the step and this multiple of that at
+/// which a body has left what it touched.
+const SMALL: [f64; 2] = [0.02, 3.0];
+/// The most parts of a step.
+const MOST_PARTS: usize = 100;
 
 impl Island {
     /// The signals of a body after the last step, once the forces there are known.
@@ -83,6 +85,7 @@ impl Island {
         self.since.clear();
         self.since.resize(self.step_ends.len(), [report.start; 3]);
         self.find_forces();
+        self.find_pushed();
         let parts = self.count_parts(report);
         for part in 1..=parts {
             let time = part_of(report, (part, parts));
@@ -102,9 +105,11 @@ impl Island {
 
     /// On how many parts of the last step its events are looked for.
     fn count_parts(&self, report: &StepReport) -> usize {
-        let bodies = self.model().bodies.iter().zip(&self.step_ends).filter(|(body, _)| !body.solid.is_ball());
-        let spin = bodies.map(|(_, end)| end.motion.angular_velocity().norm()).fold(0.0, f64::max);
-        PARTS.max((spin * (report.end - report.start) / TURN).ceil() as usize)
+        let model = self.model();
+        let is_seen = |body: &usize| model.bodies[*body].has_inertia() && !model.bodies[*body].solid.is_ball();
+        let bodies = (0..self.step_ends.len()).filter(is_seen);
+        let spin = bodies.map(|body| self.step_ends[body].motion.angular_velocity().norm()).fold(0.0, f64::max);
+        ((spin * (report.end - report.start) / TURN).ceil() as usize).clamp(PARTS, MOST_PARTS)
     }
 
     /// The signals of all bodies at the end of the step.
@@ -134,41 +139,47 @@ impl Island {
         self.integrator.interpolate_extended(time, bodies, works, Some(low));
     }
 
-    /// The signals of bodies that are pushed at both ends of the last step and by next to nothing at a time within it.
+    /// Finds the bodies that are pushed at both ends of the last step, and by their contacts alone.
+    fn find_pushed(&mut self) {
+        let mut pushed = std::mem::take(&mut self.pushed);
+        pushed.clear();
+        pushed.extend((0..self.step_ends.len()).filter(|body| {
+            self.state.signals[*body][LIFT_OFF] > 0.0
+                && self.forces[*body] > events::parting_force(self.model(), *body, self.system.speed_scale(*body))
+                && self.step_ends[*body].contact_force(self.model(), *body).is_some()
+        }));
+        self.pushed = pushed;
+    }
+
+    /// The signals of those that have left what they touched at a time within the last step: the force of contacts is
+    /// asked for where m (p̈₀ − g) of the interpolant is small.
     fn find_partings_within(&mut self, time: f64, half: f64) {
-        let is_pushed = |island: &Self, body: usize| {
-            let seen = &island.step_ends[body];
-            island.state.signals[body][LIFT_OFF] > 0.0 && seen.contact_force(island.model(), body).is_some()
-        };
-        if !(0..self.step_ends.len()).any(|body| is_pushed(self, body)) {
+        if self.pushed.is_empty() {
             return;
         }
         let velocity = |island: &Self, body: usize| island.sampled.motion(island.model(), body).velocity.velocity;
         let mut changes = std::mem::take(&mut self.changes);
         changes.clear();
         self.interpolate(time - half);
-        changes.extend((0..self.step_ends.len()).map(|body| velocity(self, body)));
+        changes.extend(self.pushed.iter().map(|body| velocity(self, *body)));
         self.interpolate(time + half);
-        for (body, change) in changes.iter_mut().enumerate() {
-            *change = velocity(self, body) - *change;
+        for (body, change) in self.pushed.iter().zip(&mut changes) {
+            *change = velocity(self, *body) - *change;
         }
         let mut is_sampled = false;
-        for body in 0..self.step_ends.len() {
-            if !is_pushed(self, body) {
-                continue;
-            }
-            let (model, gravity) = (self.model(), self.model().gravity);
-            let mass = model.bodies[body].solid.mass.mass;
-            let force = mass * (changes[body] / (2.0 * half) - gravity).norm();
-            if force >= SMALL[0] * self.forces[body] + SMALL[1] * mass * gravity.norm() {
+        for (place, change) in changes.iter().enumerate() {
+            let body = self.pushed[place];
+            let (model, speed) = (self.model(), self.system.speed_scale(body));
+            let force = model.bodies[body].solid.mass.mass * (change / (2.0 * half) - model.gravity).norm();
+            let small = SMALL[0] * self.forces[body] + SMALL[1] * events::parting_force(model, body, speed);
+            if force >= small {
                 continue;
             }
             if !std::mem::replace(&mut is_sampled, true) {
                 self.sample(time);
             }
             let (model, workspace) = self.system.observed();
-            let force = observe(model, workspace, &self.sampled, body).map_or(f64::NAN, |it| it.contact_force.norm());
-            let speed = self.system.speed_scale(body);
+            let force = workspace.contact_force((model, body), &self.sampled).map_or(f64::NAN, |force| force.norm());
             self.signals[body][LIFT_OFF] = events::lift_off(self.system.model(), body, force, speed);
         }
         self.changes = changes;
@@ -208,12 +219,12 @@ impl Island {
             match kind {
                 APEX => events::apex(model, body, &motion(), speed),
                 LIFT_OFF => {
-                    // When nothing else needs the sample.
+                    // The sample is made anew for whoever needs it next.
                     state.time = time;
                     state.bodies.copy_from_slice(bodies);
                     state.low.fill(0.0);
-                    let seen = observe(model, workspace, state, body);
-                    events::lift_off(model, body, seen.map_or(f64::NAN, |seen| seen.contact_force.norm()), speed)
+                    let force = workspace.contact_force((model, body), state).map_or(f64::NAN, |force| force.norm());
+                    events::lift_off(model, body, force, speed)
                 }
                 _ => {
                     let gaps = workspace.pair_gaps_of((model, body), time, bodies.into()).ok();

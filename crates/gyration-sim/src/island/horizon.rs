@@ -23,6 +23,7 @@ use crate::island::step_end::StepEnd;
 use gyration::Party;
 use gyration::body::Solid;
 use gyration::instant::PairGaps;
+use gyration::lattice::HERE;
 use gyration::load::Spring;
 use gyration::model::Model;
 use gyration::neighbours::BodyPair;
@@ -94,8 +95,8 @@ pub(crate) fn horizon(
         let both = match (&seen, pair.bodies()) {
             (Some((SeenFromSupport { body, .. }, support)), _) => [body, support],
             (None, Some([one, other])) => {
-                image = ends[other].farther(&model.lattice.place(pair.cell));
-                [&ends[one], &image]
+                image = (pair.cell != HERE).then(|| ends[other].shifted_by(&model.lattice.place(pair.cell)));
+                [&ends[one], image.as_ref().unwrap_or(&ends[other])]
             }
             (None, None) => continue,
         };
@@ -127,6 +128,7 @@ pub(crate) fn horizon(
 /// The longest step [s] after which any two bodies that are out of reach, and may come within it in a time [s], may be
 /// at another distance within it, at most `longest`: of all pairs, since which of them are listed must leave no trace.
 fn before_any_meeting(model: &Model, ends: &[StepEnd], within: f64, longest: f64) -> f64 {
+    debug_assert!(model.images().is_none(), "the pairs of a lattice are all listed");
     let mut step = longest;
     for BodyPair { rule, bodies } in may_meet(model, ends, within) {
         let solids = bodies.map(|body| &*model.bodies[body].solid);

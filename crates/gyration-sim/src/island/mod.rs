@@ -88,7 +88,8 @@ pub(crate) struct Island {
     pub signals: Vec<Signals>,
     /// Scratch: since when each signal of each body is known within the step [s].
     pub since: Vec<[f64; 3]>,
-    /// Scratch: changes of velocities within a step [m/s].
+    /// Scratch: the bodies that are pushed at both ends of the step, and changes of their velocities within [m/s].
+    pushed: Vec<usize>,
     changes: Vec<Vec3>,
     /// The largest contact forces before the last step; those behind it stand in the state.
     pub peaks_before: Peaks,
@@ -151,6 +152,7 @@ impl Island {
             events: Vec::new(),
             signals: Vec::new(),
             since: Vec::new(),
+            pushed: Vec::new(),
             changes: Vec::new(),
             peaks_before: Peaks::default(),
             last_step: None,

@@ -52,13 +52,16 @@ impl Island {
         }
         let was_slow = self.state.slow_since.is_finite();
         let looks = LOOKS.map(|part| step.start + part * (step.end - step.start));
-        let fast = looks.iter().rposition(|time| self.excess_speed(plan, *time) >= 0.0);
+        let is_slow = |island: &mut Self, time: f64| island.excess_speed(plan, time) < 0.0;
+        let fast = looks.iter().rposition(|time| !is_slow(self, *time));
         let (from, until) = match fast {
             Some(last) => (looks[last], looks.get(last + 1).copied().unwrap_or(step.end)),
             None if was_slow => return,
             None => (step.start, looks[0]),
         };
-        self.state.slow_since = self.slowed_down(plan, (from, until)).unwrap_or(until);
+        // Without a crossing it is at one of the ends, by rounding.
+        let at_end = |island: &mut Self| if island.excess_speed(plan, from) <= 0.0 { from } else { until };
+        self.state.slow_since = self.slowed_down(plan, (from, until)).unwrap_or_else(|| at_end(self));
     }
 
     /// By how much the fastest material point of all is faster than the speed of rest, at a time within the last step

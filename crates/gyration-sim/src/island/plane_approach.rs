@@ -57,7 +57,8 @@ impl<'a> PlaneApproach<'a> {
         let mut velocity = RelativeMotion::to(support, motion, time).velocity;
         if support.motion.oscillates() {
             let (way, speed) = drift(support, time);
-            field.height = (motion.placement.position - support.origin - way).dot(&support.normal) - support.foremost();
+            field.height =
+                (motion.placement.position - support.origin - way).dot(&support.normal) - support.forward_amplitude();
             velocity = motion.velocity.velocity - speed;
         }
         Self::along(&support.normal, (end, &end.acceleration), (surface, radius), (field, velocity))

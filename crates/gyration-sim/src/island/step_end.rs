@@ -48,8 +48,8 @@ impl StepEnd {
         Self { motion, acceleration, stretching }
     }
 
-    /// The same of its image so much farther on [m].
-    pub fn farther(mut self, way: &Vec3) -> Self {
+    /// The same of its image in another cell, so much farther on [m].
+    pub fn shifted_by(mut self, way: &Vec3) -> Self {
         self.motion.placement.position += way;
         self
     }

@@ -54,13 +54,18 @@ impl Job<'_> {
 /// The overrides with which a recording goes on.
 fn repeated(recorded: &Attributes) -> String {
     let overrides = recorded.get("overrides").and_then(Value::as_array).into_iter().flatten();
+    let has_overrides = overrides.clone().next().is_some();
     let may_differ = |text: &&str| {
         let key = text.split('=').next().unwrap_or_default().trim();
         MAY_DIFFER.iter().any(|name| key.strip_prefix("solver.") == Some(name))
     };
     let needed = overrides.filter_map(Value::as_str).filter(|text| !may_differ(text));
     let set = needed.map(|text| format!(" --set '{text}'")).collect::<String>();
-    if set.is_empty() { "it was made without --set".to_owned() } else { format!("repeat{set}") }
+    match set.is_empty() {
+        true if has_overrides => "leave out --set".to_owned(),
+        true => "it was made without --set".to_owned(),
+        false => format!("repeat{set}"),
+    }
 }
 
 /// The resolved scene without what may differ between a run and its resumption, and the bodies that it led to.

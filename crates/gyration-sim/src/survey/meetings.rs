@@ -23,9 +23,7 @@ const MOST_LISTED: usize = 10_000;
 /// Pairs without a reach at which a step costs little.
 const FEW_ENDLESS: usize = 1000;
 /// Evaluations of an explicit step.
-const EVALUATIONS: usize = 16;
-/// To find the plane of a pair takes about so long [s].
-const PLANE: f64 = 5e-6;
+pub(super) const EVALUATIONS: usize = 16;
 
 /// What can be said of two bodies, or a body and a support with a shape, that meet.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -180,12 +178,10 @@ pub(super) fn write_meetings(text: &mut String, meetings: &[MeetingSurvey], pair
         let _ = writeln!(text, "           and {more} meetings more: {listed} with --json");
     }
     if endless > FEW_ENDLESS {
-        let step = short((EVALUATIONS * endless) as f64 * PLANE);
         let _ = writeln!(
             text,
             "           warning: {endless} pairs have no reach, or deform: an evaluation looks at all, a step makes \
-             {EVALUATIONS} or more,\n             which takes some {step} s; give the contact a `reach`, beyond which \
-             bodies do not feel each other"
+             {EVALUATIONS} or more;\n             give the contact a `reach`, beyond which bodies do not feel each other"
         );
     }
 }

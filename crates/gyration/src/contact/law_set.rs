@@ -103,15 +103,13 @@ impl LawSet {
         &self.laws
     }
 
-    /// W of `negligible`: a bound on the work from a distance [m] to infinity on a surface of so large an area [m²], none
-    /// of whose points comes nearer or moves faster than a speed [m/s]; infinite where an exponent is one or less [J].
+    /// W of `negligible`: a bound on the work from a distance [m] to infinity on a surface of so large an area [m²],
+    /// none of whose points comes nearer or moves faster than a speed [m/s]; infinite where an exponent is one or less
+    /// [J].
     pub fn work_beyond(&self, area: f64, distance: f64, speed: f64) -> f64 {
-        let work = |PlannedTerm { term, .. }: &PlannedTerm| {
-            let (falls, factor) = (term.exponent - 1.0, if term.action == Action::Central { 1.0 } else { 2.0 * speed });
-            match falls > 0.0 {
-                true => term.coefficient.abs() * factor * libm::pow(distance, -falls) / falls,
-                false => f64::INFINITY,
-            }
+        let work = |planned: &PlannedTerm| match planned.term.falling_work(speed) {
+            Some((factor, falls)) => factor * libm::pow(distance, -falls) / falls,
+            None => f64::INFINITY,
         };
         area * self.terms.iter().map(work).sum::<f64>()
     }

@@ -134,6 +134,16 @@ pub struct Term {
     pub reference_gap: f64,
 }
 
+impl Term {
+    /// A bound on its traction over d^−ν at a speed [m/s], and ν − 1, by which its work to infinity falls; none where
+    /// that has no bound. One-sided damping shifts an approach by as much as it resists once more.
+    pub(crate) fn falling_work(&self, speed: f64) -> Option<(f64, f64)> {
+        let factor = if self.action == Action::Central { 1.0 } else { 2.0 * speed };
+        let falls = self.exponent - 1.0;
+        (falls > 0.0).then_some((self.coefficient.abs() * factor, falls))
+    }
+}
+
 impl ContactLaw {
     /// The law as a sum of powers of the gap.
     pub fn terms(&self) -> [Option<Term>; 2] {

@@ -8,7 +8,7 @@
 //!
 //! since one-sided damping shifts an approach by as much as that once more.
 
-use super::{Action, LawSet};
+use super::LawSet;
 use crate::kinematics::BodyMotion;
 use crate::support::Support;
 use crate::surface::Surface;
@@ -36,14 +36,10 @@ impl Negligible {
         }
         let terms = || laws.terms().iter().map(|planned| planned.term);
         let share = energy / (surface.area() * terms().count() as f64);
-        let distances = terms().map(|term| {
-            let (falls, factor) =
-                (term.exponent - 1.0, if term.action == Action::Central { 1.0 } else { 2.0 * speeds[1] });
-            match falls > 0.0 {
-                true => libm::pow(term.coefficient.abs() * factor / (falls * share), 1.0 / falls),
-                // That work has no bound.
-                false => f64::INFINITY,
-            }
+        let distances = terms().map(|term| match term.falling_work(speeds[1]) {
+            Some((factor, falls)) => libm::pow(factor / (falls * share), 1.0 / falls),
+            // That work has no bound.
+            None => f64::INFINITY,
         });
         let radius = surface.radius();
         Self { height: radius + distances.fold(0.0, f64::max), radius, speeds }

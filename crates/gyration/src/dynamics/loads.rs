@@ -16,7 +16,7 @@ use crate::kinematics::Velocity;
 use crate::ledger::{Energy, Work};
 use crate::load::{LoadSlopes, Loads, Party};
 use crate::pair::PairSlopes;
-use crate::tensor::cross_matrix;
+use crate::tensor::{Vec3, cross_matrix};
 use gyration_expression::Undefined;
 
 /// What acts on a body, gravity aside.
@@ -38,6 +38,19 @@ pub fn acting(at: &BodyAt, scratch: &mut Scratch) -> Result<Acting, Inadmissible
     let mut sum = Acting::default();
     sum.add_all(at, scratch)?;
     Ok(sum)
+}
+
+/// f of all contacts of a body, with supports and other bodies [N].
+///
+/// # Errors
+/// [`Inadmissible`] where the state is outside the model.
+pub(super) fn contact_force(at: &BodyAt, scratch: &mut Scratch) -> Result<Vec3, Inadmissible> {
+    let mut sum = Acting::default();
+    at.try_each_load(|load| match load {
+        Load::Contact(_) | Load::Pair(_) => sum.add(&load, at, scratch),
+        _ => Ok(()),
+    })?;
+    Ok(sum.contact.force)
 }
 
 impl Acting {

@@ -63,6 +63,7 @@ use crate::model::Model;
 use crate::pair::PairScratch;
 use crate::state::State;
 use crate::team::Team;
+use crate::tensor::Vec3;
 use nalgebra::DMatrix;
 
 /// Memory of the mechanics, reused from call to call.
@@ -127,6 +128,21 @@ impl Workspace {
         inertialess::solve(&mut instant, scratch)?;
         joints::solve(&mut instant, scratch)?;
         Ok((instant, scratch))
+    }
+
+    /// The force of all contacts of a body [N]. Of the others only their places are looked at, where all have inertia.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where the state is outside the model.
+    pub fn contact_force(&mut self, (model, body): (&Model, usize), state: &State) -> Result<Vec3, Inadmissible> {
+        if !model.inertialess().is_empty() {
+            let (instant, scratch) = self.read(model, state)?;
+            return Ok(loads::acting(&instant.at(body), scratch)?.contact.force);
+        }
+        let Self { instants, scratch, .. } = self;
+        scratch.far_slabs.clear();
+        let instant = instants.read_of((model, body), state.time, state.numbers())?;
+        loads::contact_force(&instant.at(body), scratch)
     }
 
     /// Tests the frictions of a body that change with its place.

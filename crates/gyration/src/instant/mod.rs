@@ -87,6 +87,26 @@ impl Instants {
         Instant { model, motions, between, remembered, rooms, team: *team, wanted: Wanted::Loads }.found()
     }
 
+    /// The same for one body: what pairs do that it has no part in is left out. All bodies have inertia.
+    ///
+    /// # Errors
+    /// Those of [`Instants::read`].
+    pub fn read_of<'a>(
+        &'a mut self,
+        (model, body): (&'a Model, usize),
+        time: f64,
+        state: Numbers,
+    ) -> Result<Instant<'a>, Inadmissible> {
+        debug_assert!(model.inertialess().is_empty(), "their velocities follow from all that acts on them");
+        self.motions.read(model, time, state)?;
+        let Self { motions, between, remembered, room, rooms, team, .. } = self;
+        let mut rooms = Rooms { own: room, others: rooms };
+        let (wanted, only) = (Wanted::Loads, Some(body));
+        let mut looking = Looking { model, motions, remembered, rooms: rooms.lend(), team: *team, wanted, only };
+        between.find(&mut looking)?;
+        Ok(Instant { model, motions, between, remembered, rooms, team: *team, wanted })
+    }
+
     /// The same with the derivatives of what pairs do.
     ///
     /// # Errors

@@ -353,16 +353,13 @@ fn packed(columns: &Matrix3x4<f64>) -> Loads {
 /// A frame whose first column is an axis (any length but zero): the second is across it and across the axis of space
 /// least along it.
 pub fn frame_about(axis: &Vec3) -> Mat3 {
-    frame_beside(axis, &Mat3::identity())
+    frame_beside(axis, &Vec3::ith(axis.iamin(), 1.0))
 }
 
-/// The same by the columns of P in the place of the axes of space: what hangs on the frame turns with the body then,
-/// however it lies in space.
-pub fn frame_beside(axis: &Vec3, gradient: &Mat3) -> Mat3 {
+/// A frame whose first column is an axis (any length but zero): the second is across it and across another direction.
+pub fn frame_beside(axis: &Vec3, other: &Vec3) -> Mat3 {
     let a = axis.normalize();
-    let columns = [0, 1, 2].map(|k| gradient.column(k).normalize());
-    let along = Vec3::from_fn(|k, _| a.dot(&columns[k]));
-    let b = a.cross(&columns[along.iamin()]).normalize();
+    let b = a.cross(other).normalize();
     Mat3::from_columns(&[a, b, a.cross(&b)])
 }
 

@@ -73,7 +73,7 @@ impl Support {
     }
 
     /// How far one that moves to and fro comes forward from its origin along its normal [m].
-    pub fn foremost(&self) -> f64 {
+    pub fn forward_amplitude(&self) -> f64 {
         let forward = |part: &MotionPart| match part {
             MotionPart::Oscillation { direction, amplitude, .. } => (amplitude * direction.dot(&self.normal)).abs(),
             MotionPart::Velocity(_) | MotionPart::Rotation { .. } => 0.0,

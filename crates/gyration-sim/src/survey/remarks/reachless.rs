@@ -5,6 +5,7 @@
 
 use super::joined::Joined;
 use crate::format::significant;
+use crate::survey::meetings::EVALUATIONS;
 use gyration::model::Model;
 use gyration::neighbours::Pair;
 use gyration::pair::{Falling, Mass, PairForm, Reach};
@@ -15,16 +16,14 @@ use std::sync::Arc;
 const MOST_TOLD: usize = 12;
 /// Pairs of a contact from which on it costs that none is too far to be looked at.
 const MANY_PAIRS: usize = 20;
-/// Bodies of a contact from which on it is told what that costs.
+/// Bodies of the larger of both sets from which on it is told what that costs.
 const MANY_BODIES: usize = 200;
 /// Pairs of a contact of which the fastest is looked at.
 const MOST_PAIRS: usize = 10_000;
 /// A gap that a reach makes smaller by at most that part is the same.
 const SMALL_CHANGE: f64 = 1e-2;
-/// So often a reach is doubled.
-const MOST_DOUBLED: i32 = 12;
-/// Evaluations of an explicit step.
-const EVALUATIONS: f64 = 16.0;
+/// So many reaches are tried, each twice as long as the one before.
+const MOST_TRIED: i32 = 12;
 /// What a pair takes [s]: of balls in closed form, and where a plane is looked for.
 const PER_PAIR: [f64; 2] = [5e-7, 5e-6];
 
@@ -39,7 +38,7 @@ pub(super) fn notes(model: &Model, start: &State) -> Vec<String> {
 fn note(model: &Model, start: &State, rule: usize) -> Option<String> {
     let written = &model.rules().all()[rule];
     let [one, other] = Joined::of_rule(model, rule).next()?.bodies.map(|body| model.name(body));
-    let members: usize = written.bodies.iter().map(|set| set.len()).max().unwrap_or(0);
+    let count: usize = written.bodies.iter().map(|set| set.len()).max().unwrap_or(0);
     let contact = format!("the contact of \"{one}\" and \"{other}\" has no reach");
     let bodies = || written.bodies.iter().flat_map(|set| set.iter());
     let proposal = ReachProposal::of(model, start, rule);
@@ -51,16 +50,17 @@ fn note(model: &Model, start: &State, rule: usize) -> Option<String> {
         }
         None => "a `reach` of some 25 of the gaps at which they turn back leaves out the rest".to_owned(),
     };
-    if members <= MANY_BODIES {
+    if count <= MANY_BODIES {
         return Some(format!(
             "{contact}: each of its pairs acts however far apart, and all its bodies share their steps; {proposed}"
         ));
     }
     let are_balls = bodies().all(|body| model.bodies[*body].is_rigid_ball());
     let pairs = written.count();
-    let seconds = EVALUATIONS * pairs as f64 * PER_PAIR[usize::from(!are_balls)];
+    let seconds = (EVALUATIONS * pairs) as f64 * PER_PAIR[usize::from(!are_balls)];
     Some(format!(
-        "{contact}: each of its {pairs} pairs acts however far apart, a step of all its bodies takes some {} s; {proposed}",
+        "{contact}: each of its {pairs} pairs acts however far apart, a step of all its bodies takes some {} s; \
+         {proposed}",
         significant(seconds, 1)
     ))
 }
@@ -102,7 +102,7 @@ impl ReachProposal {
         };
         let auto =
             of(Reach::Gaps { falling, longest: shortest, is_common: true }).map(|it| Self { is_auto: true, ..it });
-        let longer = (0..MOST_DOUBLED).filter_map(|doubled| of(Reach::Length(shortest * f64::from(1 << doubled))));
+        let longer = (0..MOST_TRIED).filter_map(|doubled| of(Reach::Length(shortest * f64::from(1 << doubled))));
         auto.into_iter().chain(longer).find(|it| it.change <= SMALL_CHANGE && it.reach.is_finite())
     }
 
