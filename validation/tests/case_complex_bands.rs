@@ -187,3 +187,32 @@ fn a_string_and_a_lattice_lose_their_stability_where_they_must() {
     case.check("its wave, κ", 0.5, found.wave.kappa[0].abs(), 1e-6);
     assert!(!found.wave.macroscopic);
 }
+
+/// Symptom: of a chain whose second mass was written some cells farther on there were up to six times as many waves.
+#[test]
+fn waves_do_not_hang_on_the_cells_in_which_bodies_are_written() {
+    let case = Case {
+        row: None,
+        name: "complex bands of a diatomic chain, its masses up to five cells apart",
+        source: "(2k − m₁ω²)(2k − m₂ω²) = 2k²(1 + cos q), k = 40 along and 8 across",
+    };
+    let omega = 3.0;
+    let mut error: f64 = 0.0;
+    for apart in 0..=5 {
+        let chain = LatticeScene::new(&[X]).point("a", [0.0; 3], 1.0);
+        let chain = chain.point("b", [0.5 + f64::from(apart), 0.0, 0.0], 2.0);
+        let law = [40.0, 0.4, 0.0];
+        let chain = chain.spring(Link { between: ["a", "b"], cell: [-apart, 0, 0], law, ..Link::default() });
+        let chain = chain.spring(Link { between: ["b", "a"], cell: [1 + apart, 0, 0], law, ..Link::default() });
+        let found = chain.waves().evanescent(&[0.0; 3], 0, omega).unwrap();
+        assert_eq!(found.len(), 6, "{apart}: {found:?}");
+        for wave in found {
+            let off = |k: f64| {
+                let product = (2.0 * k - omega * omega) * (2.0 * k - 2.0 * omega * omega) / (2.0 * k * k);
+                (of(wave) - (product - 1.0)).norm() / (1.0 + product.abs())
+            };
+            error = error.max(off(40.0).min(off(8.0)));
+        }
+    }
+    case.check("error of cos q", 0.0, error, 1e-9);
+}

@@ -4,19 +4,22 @@
 use gyration::Inadmissible;
 use gyration::acting::Load;
 use gyration::balance::fastest_speed;
-use gyration::body::Body;
+use gyration::body::{Body, Solid};
 use gyration::contact::Contact;
 use gyration::contractile::Contraction;
 use gyration::dynamics::{Scratch, Workspace, each_push};
 use gyration::instant::{BodyAt, MotionAt};
 use gyration::model::Model;
+use gyration::neighbours::PairRule;
+use gyration::pair::PairForm;
 use gyration::signal::Signal;
 use gyration::state::{BodyMotion, State};
-use gyration::support::MotionPart;
+use gyration::support::{MotionPart, SupportMotion};
 use gyration::tensor::Mat3;
 use gyration_ode::Components;
 use std::convert::Infallible;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The energy in play of a body [J]: ½ m v², or without inertia what the fluid turns into heat while it moves by its
 /// size, η v size².
@@ -106,8 +109,8 @@ fn pushed(at: &BodyAt, slopes: &[f64], scratch: &mut Scratch) -> Result<f64, Ina
     let mut forces = 0.0;
     each_push(at, scratch, |push| forces += push.force)?;
     let supports = model.contacts_of(index).map(|contact| carried_by_plane(at, contact));
-    let solids = model.rules().with_supports_of(index).flat_map(|rule| rule.supports.iter());
-    let solids = solids.map(|support| model.solid_supports[*support].largest_speed());
+    let rules = model.rules().with_supports_of(index);
+    let solids = rules.flat_map(|rule| rule.supports.iter().map(|support| carried_by_solid(at, rule, *support)));
     let springs = model.springs_of(index).filter_map(|end| end.interaction.anchor());
     let anchors = springs.chain(model.joints_of(index).map(|end| &end.interaction.anchor));
     let anchors = anchors.map(|anchor| anchor.motion.bound(&anchor.start).speed);
@@ -124,15 +127,47 @@ fn carried_by_plane(at: &BodyAt, contact: &Contact) -> f64 {
     if speed == 0.0 {
         return 0.0;
     }
-    let height = (placement.position - support.origin).dot(&support.normal);
-    let distance = height - support.forward_amplitude() - body.radius_at(placement);
-    let oscillates = |part: &MotionPart| matches!(part, MotionPart::Oscillation { .. });
     let Some(surface) = &body.solid.surface else { return speed };
-    if distance <= 0.0 || !support.motion.parts().iter().all(oscillates) {
+    let mut field = support.gap_field(placement, 0.0);
+    field.height = (placement.position - support.origin).dot(&support.normal) - support.forward_amplitude();
+    let distance = surface.smallest_gap(&field).0;
+    if distance <= 0.0 || !only_oscillates(&support.motion) {
         return speed;
     }
     let work = contact.law_set.work_beyond(surface.area(), distance, speed);
     speed.min((2.0 * work / body.solid.mass.mass).sqrt())
+}
+
+/// The same of a support with a shape, whose sphere has a foremost place.
+fn carried_by_solid(at: &BodyAt, rule: &PairRule, support: usize) -> f64 {
+    let (body, support) = (at.body, &at.model.solid_supports[support]);
+    let speed = support.largest_speed();
+    if speed == 0.0 || !only_oscillates(&support.motion) {
+        return speed;
+    }
+    let way = |part: &MotionPart| match part {
+        MotionPart::Oscillation { direction, amplitude, .. } => amplitude.abs() * direction.norm(),
+        MotionPart::Velocity(_) | MotionPart::Rotation { .. } => 0.0,
+    };
+    let placement = &at.motion.placement;
+    let apart = (placement.position - support.start.position).norm();
+    let ways: f64 = support.motion.parts().iter().map(way).sum();
+    let distance = apart - ways - body.radius_at(placement) - support.solid.radius().unwrap_or(0.0);
+    if distance <= 0.0 {
+        return speed;
+    }
+    let work = |parts: [usize; 2]| {
+        let surfaces = [body.solid.part(parts[0]), support.solid.part(parts[1])];
+        PairForm::new(Arc::clone(&rule.laws), None, surfaces).most_work(distance, speed, surfaces)
+    };
+    let parts = Solid::parts_of([&*body.solid, &*support.solid]);
+    let works: f64 = parts.map(work).sum();
+    speed.min((2.0 * works / body.solid.mass.mass).sqrt())
+}
+
+/// Whether a motion only goes to and fro.
+fn only_oscillates(motion: &SupportMotion) -> bool {
+    motion.parts().iter().all(|part| matches!(part, MotionPart::Oscillation { .. }))
 }
 
 /// V |∂S/∂P| of the material of a body at P = 1 [J]; zero without one.

@@ -72,11 +72,12 @@ fn load(written: &file::Lattice, lattice: &Lattice, key: &Key, reporter: &mut Re
         (_, Some(pressure)) => Some(CellLoad::Pressure(pressure.0)),
         (stress, None) => {
             let stress = Mat3::from_fn(|i, j| stress.map_or(0.0, |stress| stress[i][j].0));
-            if stress != stress.transpose() {
+            if (stress - stress.transpose()).amax() > ROUNDING * stress.amax() {
                 let message = "the stress is not symmetric, and the cell does not turn under it";
                 reporter.note(&key.key("stress"), message, "write the same across the diagonal");
                 return None;
             }
+            let stress = 0.5 * (stress + stress.transpose());
             let within = lattice.projector();
             if (within * stress * within - stress).amax() > ROUNDING * stress.amax() {
                 let message = "the stress has components across the cell vectors, along which there is no cell";

@@ -52,7 +52,7 @@ impl BlochSystem {
     /// [`NoBands`].
     pub fn evanescent(&self, kappa: &[f64; 3], direction: usize, omega: f64) -> Result<Vec<[f64; 2]>, NoBands> {
         let root = C64::new(0.0, -omega);
-        let blocks = self.blocks(kappa, direction, root);
+        let blocks = gathered(self.blocks(kappa, direction, root));
         let Some(pencil) = Pencil::of(&blocks) else { return Ok(Vec::new()) };
         let roots = pencil.roots().ok_or(NoBands::Evanescent(omega))?;
         let mut found: Vec<[f64; 2]> = roots.into_iter().filter_map(wave_number).collect();
@@ -84,6 +84,56 @@ impl BlochSystem {
         };
         (-reach..=reach).map(block).collect()
     }
+}
+
+/// The same with coordinates counted to other cells, o_i on from those in which they are written, where that lets bonds
+/// reach less far: ζ^{o_i} Q_ij ζ^{−o_j} has the same roots, and no others at ζ = 0 and ∞ that rounding could part.
+fn gathered(blocks: Vec<DMatrix<C64>>) -> Vec<DMatrix<C64>> {
+    let (reach, size) = (blocks.len() / 2, blocks[0].nrows());
+    let layers = |i: usize, j: usize| {
+        let leads = |n: &usize| {
+            blocks[*n][(i, j)] != C64::new(0.0, 0.0) || blocks[2 * reach - *n][(j, i)] != C64::new(0.0, 0.0)
+        };
+        let first = (0..blocks.len()).find(leads)?;
+        let last = (0..blocks.len()).rfind(leads)?;
+        Some([first as i32 - reach as i32, last as i32 - reach as i32])
+    };
+    let mut offsets: Vec<Option<i32>> = vec![None; size];
+    for root in 0..size {
+        if offsets[root].is_some() {
+            continue;
+        }
+        offsets[root] = Some(0);
+        let mut open = vec![root];
+        while let Some(i) = open.pop() {
+            for j in 0..size {
+                if let (None, Some([first, last])) = (offsets[j], layers(i, j)) {
+                    offsets[j] = offsets[i].map(|own| own + (first + last).div_euclid(2));
+                    open.push(j);
+                }
+            }
+        }
+    }
+    let offset = |i: usize| offsets[i].unwrap_or(0);
+    let entries = || (0..size).flat_map(|i| (0..size).map(move |j| (i, j)));
+    let farthest = |(i, j): (usize, usize)| {
+        let by = offset(i) - offset(j);
+        layers(i, j).map_or(0, |[first, last]| (first + by).abs().max((last + by).abs()))
+    };
+    let nearer = entries().map(farthest).max().unwrap_or(0) as usize;
+    if nearer >= reach {
+        return blocks;
+    }
+    let mut gathered = vec![DMatrix::zeros(size, size); 2 * nearer + 1];
+    for (i, j) in entries() {
+        let Some([first, last]) = layers(i, j) else { continue };
+        let by = offset(i) - offset(j);
+        for n in first..=last {
+            let there = (n + by + nearer as i32) as usize;
+            gathered[there][(i, j)] = blocks[(n + reach as i32) as usize][(i, j)];
+        }
+    }
+    gathered
 }
 
 /// κ of ζ = e^{2πiκ}; none where the wave dies out within a part of a cell.

@@ -97,10 +97,10 @@ impl LatticeWaves {
         let there = self.least_at(&found)?;
         let is_long = found.iter().all(|part| part.abs() < step);
         // A stable lattice has its least ω² beside κ = 0, where it is trivial.
-        if there.square < least.square && (!is_long || there.square < 0.0) {
+        let tolerance = ROUNDING * self.system.stiffest;
+        if there.square < least.square && (!is_long || there.square < -tolerance) {
             least = there;
         }
-        let tolerance = ROUNDING * self.system.stiffest;
         let size = self.lattice.vectors().iter().map(Vec3::norm).fold(0.0, f64::max);
         let (slowest, direction) = self.slowest(&axes)?;
         // Long waves count as if ω² went on like this to the edge of the zone: of all that yields at once they come
