@@ -11,6 +11,8 @@
 //!   ½ ε·C_e ε − ε·L α + ½ α·D₀ α = ½ (ε − π)·C_e (ε − π) + ½ π·C_micro π,   C_e π = L α,
 //!
 //! once α has its least energy at given π: α = D₀⁻¹ Lᵀ X⁻¹ C_e π, X = L D₀⁻¹ Lᵀ = C_e − C, C_micro⁻¹ = C⁻¹ − C_e⁻¹.
+//! Under a stress C_iajb and C_jbia differ, and so the long waves of this continuum from those of the lattice: it has
+//! the energy of the half of both.
 
 use super::super::bloch::C64;
 use super::condensed::Condensed;
@@ -137,7 +139,11 @@ impl RelaxedModuli {
         rotation: &impl Fn(&Vec3) -> DVector<f64>,
     ) -> Self {
         let Series { condensed, first, second } = *series;
-        let along = |tensor: &Tensor| along_strains(tensor, &span.strains);
+        // Under a stress C_iajb and C_jbia differ: an energy has the half of both.
+        let along = |tensor: &Tensor| {
+            let along = along_strains(tensor, &span.strains);
+            0.5 * (&along + along.transpose())
+        };
         let held = along(&of_waves(&held_waves(first, second, span, rotation), span));
         let within = along(macroscopic);
         // C y = λ C_e y.
