@@ -150,7 +150,7 @@ fn a_wave_of_a_weakly_cubic_chain_is_found_however_small_and_bends_as_its_amplit
     // Of r² the product of both harmonics, 2 r₁ r₂, has a part that swings as the wave does.
     let shift = -4.0 * alpha / MASS * s * s * q.sin() * bound / omega;
     for (amplitude, quantity) in
-        [(1e-3, "period, A = 1 mm [s]"), (1e-4, "period, A = 0.1 mm [s]"), (1e-6, "period, A = 1 µm [s]")]
+        [(1e-3, "period, A = 1 mm [s]"), (1e-4, "period, A = 0.1 mm [s]"), (2e-5, "period, A = 20 µm [s]")]
     {
         let found = orbit(&ring(8, amplitude, "20*(l - 0.1)^2 + 2000/3*(l - 0.1)^3"), &OrbitChoice::Nearest, 1);
         let exact = q / (omega + shift * amplitude * amplitude);

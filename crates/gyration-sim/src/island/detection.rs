@@ -17,19 +17,16 @@ use gyration::instant::PairGaps;
 use gyration::state::{BodyMotion, State};
 use gyration_ode::{CrossingDirection, StepReport, find_crossing};
 
-/// On how many parts of a step an event is looked for, at least.
-const PARTS: usize = 4;
+/// On how many parts of a step an event is looked for, at least and at most.
+const PARTS: [usize; 2] = [4, 100];
 /// By how much a body that is no ball turns in a part of a step at most [rad]: an edge of a box five times as wide as
 /// it is high is down for twice as long before its face lies flat.
 const TURN: f64 = std::f64::consts::PI / 16.0;
-
 /// Half the time between two velocities of which an acceleration is the difference, as a part of the step.
 const DIFFERENCE: f64 = 1e-3;
 /// A force is asked for that seems to be below this part of that at the end of the step and this multiple of that at
 /// which a body has left what it touched.
 const SMALL: [f64; 2] = [0.02, 3.0];
-/// The most parts of a step.
-const MOST_PARTS: usize = 100;
 
 impl Island {
     /// The signals of a body after the last step, once the forces there are known.
@@ -109,7 +106,7 @@ impl Island {
         let is_seen = |body: &usize| model.bodies[*body].has_inertia() && !model.bodies[*body].solid.is_ball();
         let bodies = (0..self.step_ends.len()).filter(is_seen);
         let spin = bodies.map(|body| self.step_ends[body].motion.angular_velocity().norm()).fold(0.0, f64::max);
-        ((spin * (report.end - report.start) / TURN).ceil() as usize).clamp(PARTS, MOST_PARTS)
+        ((spin * (report.end - report.start) / TURN).ceil() as usize).clamp(PARTS[0], PARTS[1])
     }
 
     /// The signals of all bodies at the end of the step.

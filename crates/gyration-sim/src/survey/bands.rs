@@ -268,7 +268,8 @@ pub(super) fn warnings_of(cell: &UnitCell, waves: &LatticeWaves, rows: &[BandRow
         ));
     }
     if waves.rest().bodies.iter().any(|rest| left_out(rest).is_some()) {
-        warnings.push("contractions go on under their drives, and are held as they are at the start".to_owned());
+        let told = "no state was found in which contractions stand still: they are held as they are at the start";
+        warnings.push(told.to_owned());
     }
     warnings
 }

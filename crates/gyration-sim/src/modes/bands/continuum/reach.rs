@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 const OFF: f64 = 0.01;
 /// Wave vectors between the centre and the boundary of the zone at which it is looked for.
 const LOOKS: u32 = 48;
-/// κ below this belongs to waves that no lattice is long enough for.
-const LONGEST: f64 = 1e-6;
+/// κ below this belongs to waves that no lattice is long enough for; frequencies nearer to zero are soon rounding.
+const LONGEST: f64 = 1e-4;
 /// Halvings of what lies between two of them.
 const HALVINGS: u32 = 40;
 
