@@ -5,6 +5,7 @@ use crate::contractile::{Contraction, ContractionSource};
 use crate::extended::Numbers;
 pub use crate::kinematics::BodyMotion;
 use crate::kinematics::{Placement, Quaternion, Velocity, rigid_gradient_rate};
+use crate::lattice::Lattice;
 use crate::model::Model;
 use crate::tensor::{Mat3, Vec3, axial};
 use std::ops::Range;
@@ -123,6 +124,20 @@ impl State {
     /// The motion of one body; of one without inertia as if it were still.
     pub fn motion(&self, model: &Model, body: usize) -> BodyMotion {
         BodyMotion::read(&model.bodies[body], model.slots(body), &self.bodies)
+    }
+
+    /// Cells of these vectors that have gone to F x, and the state of their bodies, whose centres move along.
+    #[must_use]
+    pub fn carried(&self, model: &Model, strain: &Mat3, lattice: Lattice) -> (Model, Self) {
+        let model = model.clone().with_cells_deformed(strain, lattice);
+        let mut state = Self { low: Vec::new(), ..self.clone() };
+        for body in 0..model.bodies.len() {
+            let place = &mut state.bodies[model.slots(body).position()];
+            if let [x, y, z] = *place {
+                place.copy_from_slice((strain * Vec3::new(x, y, z)).as_slice());
+            }
+        }
+        (model, state)
     }
 
     /// The same with the place in space of a body of a lattice, where its own is that in its cell.

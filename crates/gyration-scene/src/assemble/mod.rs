@@ -150,7 +150,7 @@ pub struct UnitCell {
 impl UnitCell {
     /// The cell whose vectors rest at F̄: its bodies move along.
     pub(crate) fn at_rest(&self, strain: &Mat3) -> Self {
-        let (model, state) = self.model.carried(&self.state, strain, self.model.lattice.deformed(strain));
+        let (model, state) = self.state.carried(&self.model, strain, self.model.lattice.deformed(strain));
         Self { model, state, load: None, ..self.clone() }
     }
 }

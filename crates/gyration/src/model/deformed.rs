@@ -4,7 +4,6 @@ use super::Model;
 use crate::body::Body;
 use crate::lattice::Lattice;
 use crate::load::{Anchor, Attachment, Spring};
-use crate::state::State;
 use crate::tensor::{Mat3, Vec3};
 use std::sync::Arc;
 
@@ -18,20 +17,6 @@ impl Model {
         let bodies: Vec<Arc<Body>> = self.bodies.iter().map(|body| moved(body, strain)).collect();
         let springs = self.springs().iter().map(|spring| led(spring, strain)).collect();
         self.with_bodies(bodies).with_springs(springs).in_lattice(lattice).beginning_at(origins)
-    }
-
-    /// The same with the state of its bodies, whose centres move along.
-    #[must_use]
-    pub fn carried(&self, state: &State, strain: &Mat3, lattice: Lattice) -> (Self, State) {
-        let model = self.clone().with_cells_deformed(strain, lattice);
-        let mut state = State { low: Vec::new(), ..state.clone() };
-        for body in 0..model.bodies.len() {
-            let place = &mut state.bodies[model.slots(body).position()];
-            if let [x, y, z] = *place {
-                place.copy_from_slice((strain * Vec3::new(x, y, z)).as_slice());
-            }
-        }
-        (model, state)
     }
 
     /// The first body whose centre is kept to a line or a plane that the strain takes out of itself.

@@ -159,7 +159,7 @@ impl StrainedCell {
         if let Some(body) = self.model.leaves_guide(&step) {
             return Err(NoBands::Guide(self.model.name(body).to_owned()));
         }
-        let (model, mut state) = self.model.carried(&self.state, &step, self.written.deformed(gradient));
+        let (model, mut state) = self.state.carried(&self.model, &step, self.written.deformed(gradient));
         let waves = LatticeWaves::new(&model, &state, true)?;
         for (body, rest) in waves.rest().bodies.iter().enumerate() {
             let start = model.slots(body).block().start;
@@ -171,7 +171,7 @@ impl StrainedCell {
     /// The cells of a run, of which this is one, where the vectors of this one have come to rest: their bodies move
     /// along.
     pub fn carry(&self, model: &Model, state: &State) -> (Model, State) {
-        model.carried(state, &self.rest, model.lattice.deformed(&self.rest))
+        state.carried(model, &self.rest, model.lattice.deformed(&self.rest))
     }
 
     /// F̄ at which the vectors have come to rest; the identity where they are as written.
