@@ -18,7 +18,7 @@ pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
         return None;
     }
     if let Some(schur) = Schur::try_new(matrix.clone(), f64::EPSILON, sweeps) {
-        return Some(schur.complex_eigenvalues().iter().copied().collect());
+        return Some(of_blocks(&schur.unpack().1));
     }
     let turn = Complex::new(0.8, 0.6);
     let added = Complex::new(0.2, 0.3) * matrix.amax();
@@ -27,6 +27,31 @@ pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
         let (_, triangle) = Schur::try_new(turned.clone(), digits * f64::EPSILON, sweeps)?.unpack();
         Some(triangle.diagonal().iter().map(|value| (value - added) * turn.conjugate()).collect())
     })
+}
+
+/// The eigenvalues of a quasi-triangular matrix: of blocks of one, and of two,
+///
+///   λ = ½(a + d) ± √δ,   δ = ¼(a − d)² + bc
+///
+/// Two that are equal have a δ of rounding, of either sign.
+fn of_blocks(triangle: &DMatrix<f64>) -> Vec<Complex<f64>> {
+    let (mut found, mut at) = (Vec::with_capacity(triangle.nrows()), 0);
+    while at < triangle.nrows() {
+        let a = triangle[(at, at)];
+        if at + 1 == triangle.nrows() || triangle[(at + 1, at)] == 0.0 {
+            found.push(Complex::from(a));
+            at += 1;
+            continue;
+        }
+        let d = triangle[(at + 1, at + 1)];
+        let (middle, half) = (0.5 * (a + d), 0.5 * (a - d));
+        let square = half * half + triangle[(at, at + 1)] * triangle[(at + 1, at)];
+        let root = square.abs().sqrt();
+        let root = if square < 0.0 { Complex::new(0.0, root) } else { Complex::from(root) };
+        found.extend([middle + root, middle - root]);
+        at += 2;
+    }
+    found
 }
 
 #[cfg(test)]

@@ -40,6 +40,7 @@ mod run_state;
 mod scales;
 mod scene_files;
 pub mod sensitivity;
+mod singular_values;
 mod stepping;
 mod sum;
 mod summary;

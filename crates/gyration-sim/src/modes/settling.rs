@@ -2,6 +2,7 @@
 
 use super::frozen::FrozenSystem;
 use super::system::SystemCoordinates;
+use crate::singular_values::SingularValues;
 use gyration::Inadmissible;
 use gyration_threads::Interruption;
 use nalgebra::{DMatrix, DVector};
@@ -94,15 +95,16 @@ fn least_squares(
     let weight = ratio(stiffness, matrix.rows(size, own).norm());
     matrix.rows_mut(size, own).scale_mut(weight);
     right.rows_mut(size, own).scale_mut(weight);
-    let svd = matrix.try_svd(true, true, f64::EPSILON, 10_000)?;
+    let found = SingularValues::of(&matrix)?;
     *most = right.norm().max(*most);
-    let stiffest = svd.singular_values.max();
-    let along = svd.u.as_ref()?.tr_mul(&right);
-    let parts = along.zip_map(&svd.singular_values, |along, value| {
-        let is_felt = value > WEAK * stiffest || (value > NEUTRAL * stiffest && along.abs() > NO_FORCE * *most);
-        if is_felt { along / value } else { 0.0 }
-    });
-    let mut solved = svd.v_t.as_ref()?.tr_mul(&parts);
+    let stiffest = found.largest();
+    let mut solved = DVector::zeros(right.len());
+    for k in found.above(NEUTRAL * stiffest) {
+        let (value, along) = (found.values[k], found.left(k).dot(&right));
+        if value > WEAK * stiffest || along.abs() > NO_FORCE * *most {
+            solved += found.right(k) * (along / value);
+        }
+    }
     solved.rows_mut(size, own).scale_mut(unit);
     Some(solved)
 }

@@ -10,6 +10,7 @@ use super::slopes::SystemSlopes;
 use super::spectrum::FirstOrder;
 use super::tangent::JointTangent;
 use super::weightless::Inertial;
+use crate::singular_values::SingularValues;
 use gyration::Inadmissible;
 use gyration::body::{Body, Slots};
 use gyration::lattice::HERE;
@@ -18,8 +19,6 @@ use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Sweeps of a singular value decomposition at most.
-const SWEEPS: usize = 10_000;
 /// A part in quadrature below this is rounding.
 const IN_STEP: f64 = 1e-6;
 
@@ -163,8 +162,9 @@ impl SystemCoordinates {
         if seen.is_empty() {
             return Some(seen);
         }
-        let svd = seen.try_svd(true, true, f64::EPSILON, SWEEPS)?;
-        Some(svd.u? * svd.v_t?)
+        let found = SingularValues::of(&seen)?;
+        let parts = found.above(0.0).map(|k| found.left(k) * found.right(k).transpose());
+        Some(parts.fold(DMatrix::zeros(to.count(), from.count()), |sum, part| sum + part))
     }
 
     /// The sizes of the numbers of places along y, centres with a length beyond their cells.

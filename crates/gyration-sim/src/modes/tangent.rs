@@ -10,6 +10,7 @@
 //! with the multipliers λ of rest: the curvature of the equations is a part of the stiffness.
 
 use super::coordinates::Coordinates;
+use crate::singular_values::SingularValues;
 use gyration::dynamics::JointEquation;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
@@ -86,12 +87,11 @@ impl JointTangent {
 /// An orthonormal basis of what a matrix takes to zero.
 fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let size = matrix.ncols();
-    let svd = matrix.clone().svd(false, true);
-    let least = DEPENDENT * svd.singular_values.iter().copied().fold(0.0, f64::max);
     let mut kept = DMatrix::identity(size, size);
-    for (direction, value) in svd.v_t.iter().flat_map(|v_t| v_t.row_iter()).zip(&svd.singular_values) {
-        if *value > least {
-            kept -= direction.transpose() * direction;
+    if let Some(found) = SingularValues::of(matrix) {
+        for k in found.above(DEPENDENT * found.largest()) {
+            let direction = found.right(k);
+            kept -= direction * direction.transpose();
         }
     }
     let eigen = kept.symmetric_eigen();

@@ -4,9 +4,9 @@
 //! are an orthonormal basis of the range of ∂(projection)/∂y, in these scales: what guides, joints and kept volumes
 //! leave, without the length of a quaternion and the turns of a point.
 
-use super::SWEEPS;
 use crate::adapter::ModelSystem;
 use crate::sensitivity::SCALES;
+use crate::singular_values::SingularValues;
 use gyration::Inadmissible;
 use gyration::body::Slots;
 use gyration::model::Model;
@@ -48,11 +48,11 @@ impl Chart {
             left.set_column(column, &(difference.component_div(&chart.scales) / (2.0 * PROBE)));
         }
         // Of iterations that do not end nothing is left, as of what cannot move.
-        if let Some(found) = left.try_svd(true, false, f64::EPSILON, SWEEPS)
-            && let Some(u) = found.u
-        {
-            let kept: Vec<usize> = (0..n).filter(|k| found.singular_values[*k] > LEFT).collect();
-            chart.basis = u.select_columns(&kept);
+        if let Some(found) = SingularValues::of(&left) {
+            let kept: Vec<DVector<f64>> = found.above(LEFT).map(|k| found.left(k)).collect();
+            if !kept.is_empty() {
+                chart.basis = DMatrix::from_columns(&kept);
+            }
         }
         Ok(chart)
     }

@@ -38,6 +38,8 @@ const FOUND: f64 = 1e-9;
 const SAME: f64 = 1e-6;
 /// After so many periods what drives a scene is compared with what it was.
 const REPETITIONS: [f64; 3] = [1.0, 2.0, 3.0];
+/// So many returns are tried.
+const MOST_RETURNS: usize = 4;
 /// So many steps are tried, and each is halved so often.
 const MOST_STEPS: usize = 40;
 const MOST_HALVINGS: usize = 8;
@@ -52,8 +54,6 @@ const STABLE: f64 = 1e-6;
 const KEPT: f64 = 1e-4;
 /// A number that changes by less than this part of its scale stands still.
 const LEAST_SPAN: f64 = 1e-9;
-/// Sweeps of an iteration at most; a few for each row are the rule.
-const SWEEPS: usize = 10_000;
 
 /// Motions of a model among which one is looked for.
 #[derive(Debug, Clone)]
@@ -216,13 +216,13 @@ impl Orbit {
         Ok(Self { period: trial.period, start: trial.start, multipliers, stable, misfit })
     }
 
-    /// How long a motion takes to come near to its start, its cells moved on if that is asked for: when its distance,
-    /// which had grown or is there from the beginning, is least for the first time; and whether it has kept its energy
-    /// until then.
+    /// After which times \[s\] a motion is near to its start, its cells moved on if that is asked for: when its
+    /// distance, which had grown or is there from the beginning, is least for the first few times; and whether it has
+    /// kept its energy until then. A body that turns far to both sides is near in between as well.
     ///
     /// # Errors
     /// `NoReturn`, `Outside`, `Flow`.
-    pub fn first_return(search: &OrbitSearch<'_>, start: &State) -> Result<(f64, bool), NoOrbit> {
+    pub fn returns(search: &OrbitSearch<'_>, start: &State) -> Result<(Vec<f64>, bool), NoOrbit> {
         let OrbitSearch { model, plan, .. } = *search;
         let (mut times, mut changes) = (Vec::new(), Vec::<DVector<f64>>::new());
         let (first, mut most_lost, mut most_kinetic) = (energy(model, start)?, 0.0_f64, 0.0_f64);
@@ -239,24 +239,62 @@ impl Orbit {
         let spans = changes.iter().fold(least, |spans, change| spans.sup(&change.abs()));
         let spans = largest_of_kind(model, &spans);
         let size = |change: &DVector<f64>| change.component_div(&spans).amax();
-        let away: Vec<(f64, f64)> = times.iter().copied().zip(changes.iter().map(size)).collect();
-        let most = away.iter().map(|(_, size)| *size).fold(0.0, f64::max);
+        let away: Vec<f64> = changes.iter().map(size).collect();
+        let most = away.iter().copied().fold(0.0, f64::max);
         // Whose cells are to move on begins away from where it comes to.
         let left = match search.shift {
             Some(_) => 0,
-            None => away.iter().position(|(_, size)| *size > 0.5 * most).unwrap_or(0),
+            None => away.iter().position(|size| *size > 0.5 * most).unwrap_or(0),
         };
-        let back = (left.max(1)..away.len().saturating_sub(1)).find(|k| {
-            let size = |k: usize| away[k].1;
-            size(*k) < 0.3 * most && size(*k) <= size(*k - 1) && size(*k) <= size(*k + 1)
-        });
-        let keeps = most_lost <= KEPT * most_kinetic;
-        match (back, ended) {
+        let is_back = |k: &usize| away[*k] < 0.3 * most && away[*k] <= away[*k - 1] && away[*k] <= away[*k + 1];
+        let back = (left.max(1)..away.len().saturating_sub(1)).filter(is_back);
+        let returns: Vec<f64> = back.map(|k| times[k]).take(MOST_RETURNS).collect();
+        match ended {
             // What becomes of it later is not asked.
-            (Some(k), _) => Ok((away[k].0, keeps)),
-            (None, Ok(())) => Err(NoOrbit::NoReturn { end: plan.end }),
-            (None, Err(error)) => Err(NoOrbit::Flow { period: plan.end, reason: error.to_string() }),
+            _ if !returns.is_empty() => Ok((returns, most_lost <= KEPT * most_kinetic)),
+            Ok(()) => Err(NoOrbit::NoReturn { end: plan.end }),
+            Err(error) => Err(NoOrbit::Flow { period: plan.end, reason: error.to_string() }),
         }
+    }
+
+    /// The same of a start or, where it does not come back and has losses, of what its motion comes to by the end of
+    /// the plan; with the start that it is.
+    ///
+    /// # Errors
+    /// As [`Orbit::returns`].
+    pub fn returning(search: &OrbitSearch<'_>, start: &State) -> Result<(State, Vec<f64>, bool), NoOrbit> {
+        let (error, end) = match Self::returns(search, start) {
+            Ok((times, keeps)) => return Ok((start.clone(), times, keeps)),
+            Err(NoOrbit::NoReturn { end }) => (NoOrbit::NoReturn { end }, end),
+            Err(error) => return Err(error),
+        };
+        if search.model.is_driven() || !search.settles(start, end)? {
+            return Err(error);
+        }
+        let Some(later) = search.after(start, end) else { return Err(error) };
+        let Ok((times, keeps)) = Self::returns(search, &later) else { return Err(error) };
+        Ok((later, times, keeps))
+    }
+
+    /// Near a start, with the first of some periods from which the search leads to one.
+    ///
+    /// # Errors
+    /// [`NoOrbit`], from the first.
+    pub fn near_one(
+        search: &OrbitSearch<'_>,
+        start: &State,
+        periods: &[f64],
+        choice: &Choice<'_>,
+    ) -> Result<Self, NoOrbit> {
+        let mut first = None;
+        for period in periods {
+            match Self::near(search, start, *period, choice) {
+                Err(error @ NoOrbit::NotFound { .. }) => first = first.or(Some(error)),
+                Err(error) => return Err(first.unwrap_or(error)),
+                found => return found,
+            }
+        }
+        Err(first.unwrap_or(NoOrbit::NoReturn { end: search.plan.end }))
     }
 }
 

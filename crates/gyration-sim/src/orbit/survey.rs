@@ -75,22 +75,33 @@ impl OrbitSurvey {
         let search = OrbitSearch { model, plan: &plan, shift: moved };
         let told = |error: NoOrbit| in_words(model, &error);
         let outside = |error: Inadmissible| told(error.into());
-        let first_return = || Orbit::first_return(&search, &built.state).map_err(told);
-        let guess = |period: Option<f64>| period.map_or_else(|| first_return().map(|found| found.0), Ok);
-        let near = |period, choice: &Choice<'_>| Orbit::near(&search, &built.state, period, choice).map_err(told);
+        let guess = |period: Option<f64>| match period {
+            Some(period) => Ok((built.state.clone(), vec![period], false)),
+            None => Orbit::returning(&search, &built.state).map_err(told),
+        };
+        let near = |start: &State, periods: &[f64], choice: &Choice<'_>| {
+            Orbit::near_one(&search, start, periods, choice).map_err(told)
+        };
         let found = match choice {
-            OrbitChoice::Period(period) => near(*period, &Choice::Period)?,
-            OrbitChoice::Energy(energy, period) => near(guess(*period)?, &Choice::Energy(*energy))?,
-            OrbitChoice::Nearest => match first_return()? {
-                (period, true) => near(period, &Choice::Energy(energy(model, &built.state).map_err(outside)?))?,
-                (period, false) => near(period, &Choice::Alone)?,
+            OrbitChoice::Period(period) => near(&built.state, &[*period], &Choice::Period)?,
+            OrbitChoice::Energy(energy, period) => {
+                let (start, periods, _) = guess(*period)?;
+                near(&start, &periods, &Choice::Energy(*energy))?
+            }
+            OrbitChoice::Nearest => match guess(None)? {
+                (start, periods, true) => {
+                    let energy = energy(model, &start).map_err(outside)?;
+                    near(&start, &periods, &Choice::Energy(energy))?
+                }
+                (start, periods, false) => near(&start, &periods, &Choice::Alone)?,
             },
             OrbitChoice::Amplitude(key, value, period) => {
                 let column = key.strip_prefix("body.").unwrap_or(key).to_owned();
                 let quantity = Quantities::find(model, &[column]).map_err(|error| error.to_string())?;
                 let quantity = RefCell::new(quantity);
                 let of_state = |state: &State| Ok(quantity.borrow_mut().at(model, state)?[0]);
-                near(guess(*period)?, &Choice::Quantity(&of_state, *value))?
+                let (start, periods, _) = guess(*period)?;
+                near(&start, &periods, &Choice::Quantity(&of_state, *value))?
             }
         };
         let start = |index: usize| {

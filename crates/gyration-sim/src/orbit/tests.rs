@@ -214,3 +214,76 @@ fn a_driven_motion_with_losses_is_followed_to_what_it_comes_to() {
         assert!(found.misfit < 1e-9, "{x}: {found:?}");
     }
 }
+
+/// A box on a joint, 1 m long and 0.5 m below it, in gravity.
+fn pendulum(joint: &str, start: &str, time: &str) -> String {
+    format!(
+        "time = {{ {time} }}\n[[body]]\nname = \"p\"\nshape = {{ box = {{ size = [0.1, 0.2, 1.0] }} }}\nmass = 2.7\n\
+         {start}\n{joint}\n"
+    )
+}
+
+/// Symptom: 39 of 654 conical pendulums had multipliers of 1.52 and were unstable, by how far from the origin they hung
+/// and by the last digits of the period.
+#[test]
+fn a_conical_pendulum_is_stable_wherever_it_hangs() {
+    for place in [0.0, 1.234, -57.3] {
+        let start = format!(
+            "orientation = {{ quaternion = [0.9887710779360422, 0.0, 0.14943813247359922, 0.0] }}\n\
+             position = [{:?}, 0.0, -0.477668244562803]\nvelocity = [0, -0.5806342956203462, 0]\n\
+             angular_velocity = [0, 0, 3.9295742391364925]",
+            place - 0.147_760_103_330_669_7
+        );
+        let joint = format!(
+            "[[joint]]\nname = \"h\"\nkind = \"ball\"\nbetween = [\"space\", \"p\"]\npoints = [[{place:?}, 0, 0], [0, 0, 0.5]]"
+        );
+        let text = pendulum(&joint, &start, "end = 32, sample = 0.08");
+        let found = orbit(&text, &OrbitChoice::Period(1.598_948_111_121_649)).unwrap();
+        let sizes: Vec<f64> = found.multipliers.iter().map(|[re, im]| re.hypot(*im)).collect();
+        println!("{place}: {sizes:?}");
+        assert!(found.stable && sizes.len() == 6, "{place}: {:?}", found.multipliers);
+        assert!(sizes.iter().all(|size| (size - 1.0).abs() < 1e-6), "{place}: {sizes:?}");
+    }
+}
+
+/// Symptom: at half of the period a body turned by −3 rad is near to where it was, at 3 rad.
+#[test]
+fn a_pendulum_that_swings_far_has_its_period() {
+    let start = "pin = [0, 0, 0.5]\nkeep = { axis = [0, 1, 0] }\n\
+                 orientation = { axis_angle = { axis = [0, 1, 0], angle = 3.0 } }";
+    let text = pendulum("", start, "end = 25, sample = 0.1").replace("[0.1, 0.2, 1.0]", "[0.1, 0.1, 1.0]");
+    let found = orbit(&text, &OrbitChoice::Nearest).unwrap();
+    // 4 K(sin ½ 3)/ω, ω² = m g l/I.
+    assert!((found.period - 4.216_805_012_730_777).abs() < 1e-9, "{}", found.period);
+}
+
+/// Symptom: what grows to a limit cycle does not come back to where it began, and nothing was found.
+#[test]
+fn a_limit_cycle_is_found_from_a_small_start() {
+    let joint = "[[joint]]\nname = \"h\"\nkind = \"hinge\"\nbetween = [\"space\", \"p\"]\naxis = [0, 1, 0]\n\
+                 drive = { torque = \"-angle+0.7*(1-4*angle^2)*rate\" }";
+    let start = "orientation = { axis_angle = { axis = [0, 1, 0], angle = 0.3 } }";
+    let text = pendulum(joint, start, "end = 60, sample = 0.05")
+        .replace("[0.1, 0.2, 1.0]", "[1, 1, 1]")
+        .replace("mass = 2.7", "mass = 6.0");
+    let text = format!("world = {{ gravity = [0, 0, 0] }}\n{text}");
+    let found = orbit(&text, &OrbitChoice::Nearest).unwrap();
+    assert!((found.period - 6.472_832_473).abs() < 1e-8 && found.stable, "{found:?}");
+}
+
+/// Symptom: two equal multipliers were no numbers, and such an orbit was stable; of a smaller motion there were none.
+#[test]
+fn multipliers_that_are_equal_are_numbers() {
+    let body = "[[body]]\nname = \"s\"\nshape = { box = { size = [1, 1, 1.3] } }\ndensity = 1000\n\
+                affine = { material = { neo_hookean = { shear = 3000 } } }\n";
+    for stretch in [1.2_f64, 1.001] {
+        let across = 1.0 / stretch.sqrt();
+        let text = format!(
+            "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 12, sample = 0.05 }}\n{body}\
+             gradient = [[{across:?}, 0, 0], [0, {across:?}, 0], [0, 0, {stretch:?}]]\n"
+        );
+        let found = orbit(&text, &OrbitChoice::Nearest).unwrap();
+        assert!(found.multipliers.iter().flatten().all(|part| part.is_finite()), "{:?}", found.multipliers);
+        assert!(found.stable, "{stretch}: {:?}", found.multipliers);
+    }
+}

@@ -2,10 +2,11 @@
 
 use super::chart::{Chart, align, change};
 use super::choice::value;
-use super::{Choice, NoOrbit, OrbitSearch, SWEEPS};
+use super::{Choice, NoOrbit, OrbitSearch};
 use crate::adapter::Tolerance;
 use crate::plan::RunPlan;
 use crate::sensitivity::{Flow, NoFlow, each_state};
+use crate::singular_values::SingularValues;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::{ImplicitOrder, Options};
@@ -127,9 +128,8 @@ impl Trial {
                 }
             }
         }
-        let found = equations.try_svd(true, true, f64::EPSILON, SWEEPS).ok_or(NoOrbit::NotComputed("step"))?;
-        let least = UNDETERMINED * found.singular_values.max();
-        let mut step = found.solve(&right, least).unwrap_or_else(|_| DVector::zeros(d + 1));
+        let found = SingularValues::of(&equations).ok_or(NoOrbit::NotComputed("step"))?;
+        let mut step = found.solve(&right, UNDETERMINED * found.largest());
         // A part of the period.
         step[d] = if moves > 0.0 { step[d] / moves } else { 0.0 };
         Ok(step)
