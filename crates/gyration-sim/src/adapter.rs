@@ -79,7 +79,7 @@ impl ModelSystem {
         check_resistances(&model)?;
         let slopes = first_rates(&model, start)?;
         let speeds = speed_scales(&model, start, &slopes)?;
-        Ok(Self::assemble(model, tolerance, slopes, speeds))
+        Ok(Self::assemble(model, start, tolerance, (slopes, speeds)))
     }
 
     /// The same for some bodies of a run, given their speed scales in it [m/s].
@@ -94,15 +94,20 @@ impl ModelSystem {
     ) -> Result<Self, Inadmissible> {
         check_resistances(&model)?;
         let slopes = first_rates(&model, start)?;
-        Ok(Self::assemble(model, tolerance, slopes, speeds))
+        Ok(Self::assemble(model, start, tolerance, (slopes, speeds)))
     }
 
-    fn assemble(model: Model, tolerance: Tolerance, first_rates: Vec<f64>, speeds: Vec<f64>) -> Self {
+    fn assemble(
+        model: Model,
+        start: &State,
+        tolerance: Tolerance,
+        (first_rates, speeds): (Vec<f64>, Vec<f64>),
+    ) -> Self {
         let energy = model.bodies.iter().zip(&speeds).map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
         // |X| is the speed of X under the unit gradient rate.
         let radius = |surface: &Surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity());
         let radii = model.bodies.iter().map(|body| body.solid.surface.as_ref().map_or(0.0, radius)).collect();
-        let frequencies = (0..model.bodies.len()).map(|body| spring_frequency(&model, body)).collect();
+        let frequencies = (0..model.bodies.len()).map(|body| spring_frequency(&model, start, body)).collect();
         let inertialess = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
         let viscous = inertialess.map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
         let workspace = OwnWorkspace::default();
@@ -335,7 +340,7 @@ impl System for ModelSystem {
 
     fn error_scales(&mut self, t: f64, y: &[f64], _w: &[f64], y_scale: &mut [f64], w_scale: &mut [f64]) {
         let (rtol, atol) = (SHARE * self.tolerance.rtol, SHARE * self.tolerance.atol);
-        let mut energy = self.energy;
+        let (mut energy, mut rounding_of_work) = (self.energy, 0.0);
         let gaps = self.workspace.get().pair_gaps(&self.model, t, y.into()).ok();
         for (index, body) in self.model.bodies.iter().enumerate() {
             let slots = self.model.slots(index);
@@ -364,6 +369,8 @@ impl System for ModelSystem {
             let lost = if apart > 0.0 { exponents.fold(0.0, f64::max) * body.size / apart } else { 0.0 };
             let shaken = shaken + 4.0 * f64::EPSILON * lost * speed.max(self.speeds[index]);
             let velocity = atol * self.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed + shaken;
+            // Forces that are off by rounding do work that is.
+            rounding_of_work += body.solid.mass.mass * speed.max(self.speeds[index]) * shaken;
             y_scale[slots.position()].fill(length + rounding);
             y_scale[slots.attitude()].fill((length + rounding) / body.size);
             y_scale[slots.velocity()].fill(velocity);
@@ -379,7 +386,7 @@ impl System for ModelSystem {
             }
         }
         let (of_works, free) = w_scale.split_at_mut(self.model.works().len());
-        of_works.fill((atol + rtol) * energy);
+        of_works.fill(((atol + rtol) * energy).max(rounding_of_work));
         free.fill(f64::INFINITY);
     }
 

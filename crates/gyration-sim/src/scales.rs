@@ -182,13 +182,17 @@ pub(crate) fn elastic_frequency(body: &Body) -> f64 {
     if stiffness == 0.0 { 0.0 } else { (stiffness / body.solid.mass.euler_tensor.symmetric_eigenvalues().min()).sqrt() }
 }
 
-/// √(Σk/m) of the springs at a body [1/s].
-pub(crate) fn spring_frequency(model: &Model, index: usize) -> f64 {
+/// √(Σk/m) of the springs and bonds at a body, where they start [1/s].
+pub(crate) fn spring_frequency(model: &Model, start: &State, index: usize) -> f64 {
     let mut stiffness = 0.0;
     let listed = model.try_each_load(index, |load| {
         stiffness += match load {
             Load::Spring(end) => end.interaction.law.stiffness,
-            Load::Bond(end) => end.interaction.stiffness(),
+            Load::Bond(end) => {
+                let [one, other] = end.interaction.bodies.map(|body| start.motion(model, body));
+                let shift = model.lattice.place(end.interaction.cell);
+                end.interaction.stiffness([&one, &other], &shift, start.time)
+            }
             Load::Contact(_)
             | Load::Pair(_)
             | Load::Joint(_)

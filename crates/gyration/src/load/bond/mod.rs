@@ -142,12 +142,10 @@ impl Bond {
         self.law.as_ref().is_none_or(BondLaw::is_energy)
     }
 
-    /// The largest stiffness that is known before a state is [N/m].
-    pub fn stiffness(&self) -> f64 {
-        match &self.law {
-            Some(BondLaw::Stiffness(stiffness)) => stiffness.matrix.fixed_view::<3, 3>(0, 0).amax(),
-            Some(BondLaw::Distance(_) | BondLaw::Invariants(_)) | None => 0.0,
-        }
+    /// How stiff its law is where its bodies are, the largest of ∂²V/∂Δ² [N/m]; zero where it has no derivative.
+    pub fn stiffness(&self, motions: [&BodyMotion; 2], shift: &Vec3, time: f64) -> f64 {
+        let slopes = self.law_slopes(&self.span(motions, shift), time, &mut Scratch::default());
+        slopes.map_or(0.0, |by_place| by_place[0][0].fixed_view::<3, 3>(0, 0).amax())
     }
 
     /// Whether it may do work: it dissipates, or its potential changes in time.
@@ -155,11 +153,11 @@ impl Bond {
         self.damping.is_some() || !self.is_energy()
     }
 
-    fn span(&self, at: &BondPlace) -> Span {
-        let [one, other] = at.motions.map(|motion| &motion.placement);
-        let [first, second] = at.motions.map(|motion| &motion.velocity);
+    fn span(&self, motions: [&BodyMotion; 2], shift: &Vec3) -> Span {
+        let [one, other] = motions.map(|motion| &motion.placement);
+        let [first, second] = motions.map(|motion| &motion.velocity);
         Span {
-            apart: other.place(&self.points[1]) + at.shift - one.place(&self.points[0]),
+            apart: other.place(&self.points[1]) + shift - one.place(&self.points[0]),
             rate: second.at(&self.points[1]) - first.at(&self.points[0]),
             gradients: [one.gradient, other.gradient],
             gradient_rates: [first.gradient_rate, second.gradient_rate],
@@ -171,7 +169,7 @@ impl Bond {
     /// # Errors
     /// [`BondFault`].
     pub fn loads(&self, at: &BondPlace, scratch: &mut Scratch) -> Result<BondLoads, BondFault> {
-        let span = self.span(at);
+        let span = self.span(at.motions, &at.shift);
         let mut found = BondLoads { length: span.apart.norm(), ..BondLoads::default() };
         if let Some(law) = &self.law {
             let (energy, stored) = match law {
@@ -201,25 +199,31 @@ impl Bond {
     /// # Errors
     /// [`BondFault`].
     pub fn slopes(&self, at: &BondPlace, scratch: &mut Scratch) -> Result<BondSlopes, BondFault> {
-        let span = self.span(at);
-        let mut by_place = [[Mat12::zeros(); 2]; 2];
-        match &self.law {
-            None => {}
-            Some(BondLaw::Distance(expression)) => {
-                let slope = distance_slope(expression, &span, at.time, scratch)?;
-                SpanSlopes::of_apart(&slope).add_to(&self.points, &mut by_place);
-            }
-            Some(BondLaw::Invariants(potential)) => {
-                potential.slopes(&span, at.time, scratch)?.add_to(&self.points, &mut by_place);
-            }
-            Some(BondLaw::Stiffness(stiffness)) => stiffness.slopes(&span).add_to(&self.points, &mut by_place),
-        }
+        let span = self.span(at.motions, &at.shift);
+        let mut by_place = self.law_slopes(&span, at.time, scratch)?;
         let by_rate = self.damping.as_ref().map(|damping| {
             let mut by_rate = [[Mat12::zeros(); 2]; 2];
             damping.add_slopes(&self.points, &span, at, (&mut by_place, &mut by_rate));
             by_rate
         });
         Ok(BondSlopes { by_place, by_rate })
+    }
+
+    /// ∂²V/∂q_i∂q_j, with the sign of loads.
+    fn law_slopes(&self, span: &Span, time: f64, scratch: &mut Scratch) -> Result<[[Mat12; 2]; 2], BondFault> {
+        let mut by_place = [[Mat12::zeros(); 2]; 2];
+        match &self.law {
+            None => {}
+            Some(BondLaw::Distance(expression)) => {
+                let slope = distance_slope(expression, span, time, scratch)?;
+                SpanSlopes::of_apart(&slope).add_to(&self.points, &mut by_place);
+            }
+            Some(BondLaw::Invariants(potential)) => {
+                potential.slopes(span, time, scratch)?.add_to(&self.points, &mut by_place);
+            }
+            Some(BondLaw::Stiffness(stiffness)) => stiffness.slopes(span).add_to(&self.points, &mut by_place),
+        }
+        Ok(by_place)
     }
 }
 
