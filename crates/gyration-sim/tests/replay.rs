@@ -119,6 +119,24 @@ fn the_force_between_bodies_without_friction_is_normal_and_is_had_again() {
     }
 }
 
+/// Symptom: a support with a shape counted as another body.
+#[test]
+fn the_force_of_a_support_with_a_shape_is_that_of_a_support() {
+    let text = "time = { end = 0.1, sample = 0.05 }\nrecord = { quantities = [\"pair_force\", \"force_by_kind\"] }\n\
+        [[support]]\nname = \"peg\"\nshape = { sphere = { radius = 0.05 } }\n[[contact]]\nbetween = [\"a\", \"peg\"]\n\
+        repulsion = { alpha = 100, nu = 4, d0 = 0.01 }\n[[body]]\nname = \"a\"\nshape = { sphere = { radius = 0.05 } }\n\
+        density = 500\nposition = [0, 0, 0.11]\n";
+    let folder = tempfile::tempdir().unwrap();
+    let scene = Scene::parse("peg.toml", text, Path::new(""), &[]).unwrap();
+    let recording = record(&scene, &folder.path().join("peg.gyr"));
+    let read = |name: &str| recording.read(name).unwrap().data;
+    let [contact, pair, of_contacts, of_pairs] =
+        ["contact_force", "pair_force", "force_contact", "force_pair"].map(read);
+    assert!(contact.iter().any(|force| *force > 1.0), "{contact:?}");
+    assert_eq!((contact, pair.iter().all(|f| *f == 0.0)), (of_contacts, true));
+    assert!(of_pairs.iter().all(|force| *force == 0.0), "{of_pairs:?}");
+}
+
 #[test]
 fn a_rigid_body_has_no_stress() {
     let folder = tempfile::tempdir().unwrap();

@@ -232,6 +232,8 @@ impl<'a> Load<'a> {
     pub fn kind(&self) -> LoadKind {
         match self {
             Self::Contact(_) => LoadKind::Contact,
+            // One with a support that has a shape is one with a support.
+            Self::Pair(pair) if pair.other().body().is_none() => LoadKind::Contact,
             Self::Pair(_) => LoadKind::Pair,
             Self::Spring(_) | Self::Bond(_) => LoadKind::Spring,
             Self::Fluid(..) | Self::Walls(_) | Self::Neighbours(_) => LoadKind::Drag,

@@ -52,7 +52,9 @@ pub fn contact_parts(at: &BodyAt, scratch: &mut Scratch) -> Result<ContactParts,
             Load::Pair(pair) => {
                 let force = pair.on_body().force;
                 parts.add(&force, &pair.normal());
-                parts.of_bodies += force;
+                if pair.other().body().is_some() {
+                    parts.of_bodies += force;
+                }
             }
             Load::Spring(_)
             | Load::Bond(_)
