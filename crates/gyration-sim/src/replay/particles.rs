@@ -12,8 +12,8 @@
 //! | `angular_velocity` | rad/s | half the vorticity of Ṗ P⁻¹, in space |
 //! | `placement` | – | P, row by row |
 //!
-//! The axes are those of the shape, P = R U with half-extents U_ii times those of the shape. A ball that deforms is an
-//! ellipsoid, told exactly: the axes are those of U. Numbers have as many digits as bring them back. Where bodies
+//! The axes are those of the shape, P = R U with half-extents U_ii times those of the shape. A ball or an ellipsoid that
+//! deforms is an ellipsoid, told exactly, by axes of its own. Numbers have as many digits as bring them back. Where bodies
 //! follow one another without end, a frame has the parallelepiped that all of them fill (`cell`).
 //!
 //! Source of the format: the manual of OVITO, "XYZ file reader".
@@ -61,13 +61,14 @@ pub fn particles_xyz(recording: &Recording, every: usize, out: &mut impl Write) 
 }
 
 /// What of a body stays.
+#[derive(Clone, Copy)]
 struct Form {
     species: &'static str,
     mass: f64,
     radius: f64,
     /// Along the axes of the shape; of those with an axis of symmetry as OVITO takes them.
     half_extents: Vec3,
-    is_ball: bool,
+    is_ellipsoid: bool,
     deforms: bool,
 }
 
@@ -82,32 +83,38 @@ impl Form {
             _ => 0.5 * (bounds.max - bounds.min),
         };
         let is_ball = matches!(solid.shape, Shape::Sphere(_));
+        let is_ellipsoid = is_ball || matches!(solid.shape, Shape::Ellipsoid(_));
         let deforms = model.bodies[body].affine().is_some();
         Self {
             species: species(&solid.shape),
             mass: solid.mass.mass,
             radius: if is_ball { half_extents.x } else { solid.radius().unwrap_or(half_extents.norm()) },
             half_extents,
-            is_ball,
+            is_ellipsoid,
             deforms,
         }
     }
 
     /// Half-extents [m] and the rotation of their axes.
+    ///
+    /// An ellipsoid with the semi-axes A = diag(a) becomes that of P A Aᵀ Pᵀ: its semi-axes are the singular values of P
+    /// A, along the left vectors.
     fn turned(&self, p: &Mat3) -> (Vec3, Mat3) {
         if !self.deforms {
             return (self.half_extents, *p);
         }
+        if self.is_ellipsoid {
+            let image = p * Mat3::from_diagonal(&self.half_extents);
+            let axes = (image * image.transpose()).symmetric_eigen();
+            let mut frame = axes.eigenvectors;
+            if frame.determinant() < 0.0 {
+                frame.column_mut(2).neg_mut();
+            }
+            let lengths = Vec3::from_fn(|k, _| (image.tr_mul(&frame.column(k))).norm());
+            return (lengths, frame);
+        }
         let Polar { rotation, stretch } = Polar::of(p);
-        if !self.is_ball {
-            return (stretch.diagonal().component_mul(&self.half_extents), rotation);
-        }
-        let axes = stretch.symmetric_eigen();
-        let mut frame = axes.eigenvectors;
-        if frame.determinant() < 0.0 {
-            frame.column_mut(2).neg_mut();
-        }
-        (self.radius * axes.eigenvalues, rotation * frame)
+        (stretch.diagonal().component_mul(&self.half_extents), rotation)
     }
 
     /// Appends the line of a body.
@@ -148,25 +155,30 @@ fn species(shape: &Shape) -> &'static str {
 mod tests {
     use super::*;
 
+    /// Symptom: an ellipsoid had the extents of a box that is stretched along its edges, off by a fifth.
     #[test]
-    fn a_ball_that_deforms_is_the_ellipsoid_that_it_is() {
+    fn a_ball_and_an_ellipsoid_that_deform_are_the_ellipsoids_that_they_are() {
         let form = Form {
             species: "sphere",
             mass: 1.0,
             radius: 0.3,
             half_extents: Vec3::repeat(0.3),
-            is_ball: true,
+            is_ellipsoid: true,
             deforms: true,
         };
         let p = Mat3::new(1.2, 0.3, -0.1, 0.0, 0.8, 0.4, 0.2, -0.5, 1.1);
-        let (half, axes) = form.turned(&p);
-        let squares = Mat3::from_diagonal(&half.component_mul(&half));
-        let error = (axes * squares * axes.transpose() - 0.09 * p * p.transpose()).norm();
-        println!("ellipsoid off by {error:.1e}");
-        assert!(error < 1e-15 && (axes.determinant() - 1.0).abs() < 1e-14, "{error:e}");
+        for extents in [Vec3::repeat(0.3), Vec3::new(0.5, 0.2, 0.01)] {
+            let form = Form { half_extents: extents, ..form };
+            let (half, axes) = form.turned(&p);
+            let squares = Mat3::from_diagonal(&half.component_mul(&half));
+            let image = p * Mat3::from_diagonal(&extents);
+            let error = (axes * squares * axes.transpose() - image * image.transpose()).norm();
+            println!("ellipsoid off by {error:.1e}");
+            assert!(error < 1e-15 && (axes.determinant() - 1.0).abs() < 1e-14, "{error:e}");
+        }
         // A box that is stretched along its edges and turned.
         let turn = Rotation3::from_euler_angles(0.3, -0.2, 0.9).into_inner();
-        let form = Form { half_extents: Vec3::new(0.1, 0.2, 0.3), is_ball: false, ..form };
+        let form = Form { half_extents: Vec3::new(0.1, 0.2, 0.3), is_ellipsoid: false, ..form };
         let (half, axes) = form.turned(&(turn * Mat3::from_diagonal(&Vec3::new(2.0, 0.5, 1.5))));
         assert!((half - Vec3::new(0.2, 0.1, 0.45)).norm() < 1e-15 && (axes - turn).norm() < 1e-14);
     }
