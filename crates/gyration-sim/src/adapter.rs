@@ -7,7 +7,7 @@
 
 use crate::projection::project;
 use crate::resistance::check_resistances;
-use crate::scales::{energy_scale, speed_scales, spring_frequency};
+use crate::scales::{elastic_frequency, energy_scale, speed_scales, spring_frequency};
 use gyration::balance::fastest_speed;
 use gyration::body::{Body, NEAR};
 use gyration::dynamics::{Blocks, Workspace, acting, gap_to_supports, jacobian, rates};
@@ -48,6 +48,8 @@ pub struct ModelSystem {
     speeds: Vec<f64>,
     /// √(Σk/m) of the springs at each body [1/s].
     frequencies: Vec<f64>,
+    /// The rounding of velocities by stresses of each body [m/s].
+    stirred: Vec<f64>,
     energy: f64,
     radii: Vec<f64>,
     /// What the fluid turns into heat while bodies without inertia move by their size [J].
@@ -108,6 +110,8 @@ impl ModelSystem {
         let radius = |surface: &Surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity());
         let radii = model.bodies.iter().map(|body| body.solid.surface.as_ref().map_or(0.0, radius)).collect();
         let frequencies = (0..model.bodies.len()).map(|body| spring_frequency(&model, start, body)).collect();
+        let stirred = |body: &Arc<Body>| 4.0 * f64::EPSILON * body.size * elastic_frequency(body);
+        let stirred = model.bodies.iter().map(stirred).collect();
         let inertialess = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
         let viscous = inertialess.map(|(body, speed)| energy_scale(&model, body, *speed)).sum();
         let workspace = OwnWorkspace::default();
@@ -121,6 +125,7 @@ impl ModelSystem {
             tolerance,
             speeds,
             frequencies,
+            stirred,
             energy,
             radii,
             viscous,
@@ -369,8 +374,9 @@ impl System for ModelSystem {
             let lost = if apart > 0.0 { exponents.fold(0.0, f64::max) * body.size / apart } else { 0.0 };
             let shaken = shaken + 4.0 * f64::EPSILON * lost * speed.max(self.speeds[index]);
             let velocity = atol * self.speeds[index] + (rtol + 4.0 * f64::EPSILON) * speed + shaken;
+            let velocity = velocity.max(self.stirred[index]);
             // Forces that are off by rounding do work that is.
-            rounding_of_work += body.solid.mass.mass * speed.max(self.speeds[index]) * shaken;
+            rounding_of_work += body.solid.mass.mass * speed.max(self.speeds[index]) * (shaken + self.stirred[index]);
             y_scale[slots.position()].fill(length + rounding);
             y_scale[slots.attitude()].fill((length + rounding) / body.size);
             y_scale[slots.velocity()].fill(velocity);

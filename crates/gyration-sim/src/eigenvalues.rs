@@ -10,15 +10,20 @@ const MILDER: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
 /// The eigenvalues of a matrix; none of an iteration that does not end.
 ///
 /// With real shifts it may not where many lie evenly on a circle, as of cells that change places, or on the imaginary
-/// axis, as of a row of equal bodies. Of e^(iφ) times the matrix with a multiple of one added they lie otherwise, and
+/// axis, as of a row of equal bodies; nor where all are near to one, as of a small motion, until their mean is taken
+/// off. Of e^(iφ) times the matrix with a multiple of one added they lie otherwise, and
 /// shifts are complex.
 pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let (size, sweeps) = (matrix.nrows(), SWEEPS * matrix.nrows());
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return None;
     }
-    if let Some(schur) = Schur::try_new(matrix.clone(), f64::EPSILON, sweeps) {
-        return Some(of_blocks(&schur.unpack().1));
+    let mean = if size > 0 { matrix.trace() / size as f64 } else { 0.0 };
+    for shift in [0.0, mean] {
+        let shifted = matrix - DMatrix::from_diagonal_element(size, size, shift);
+        if let Some(schur) = Schur::try_new(shifted, f64::EPSILON, sweeps) {
+            return Some(of_blocks(&schur.unpack().1).into_iter().map(|value| value + shift).collect());
+        }
     }
     let turn = Complex::new(0.8, 0.6);
     let added = Complex::new(0.2, 0.3) * matrix.amax();

@@ -274,13 +274,13 @@ fn a_limit_cycle_is_found_from_a_small_start() {
 /// Symptom: two equal multipliers were no numbers, and such an orbit was stable; of a smaller motion there were none.
 #[test]
 fn multipliers_that_are_equal_are_numbers() {
-    let body = "[[body]]\nname = \"s\"\nshape = { box = { size = [1, 1, 1.3] } }\ndensity = 1000\n\
-                affine = { material = { neo_hookean = { shear = 3000 } } }\n";
-    for stretch in [1.2_f64, 1.001] {
+    let body = "[[body]]\nname = \"s\"\ndensity = 1000\naffine = { material = { neo_hookean = { shear = 3000 } } }\n";
+    let (cuboid, ball) = ("box = { size = [1, 1, 1.3] }", "sphere = { radius = 1 }");
+    for (shape, stretch) in [(cuboid, 1.2_f64), (ball, 1.001), (ball, 1.0001)] {
         let across = 1.0 / stretch.sqrt();
         let text = format!(
             "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 12, sample = 0.05 }}\n{body}\
-             gradient = [[{across:?}, 0, 0], [0, {across:?}, 0], [0, 0, {stretch:?}]]\n"
+             shape = {{ {shape} }}\ngradient = [[{across:?}, 0, 0], [0, {across:?}, 0], [0, 0, {stretch:?}]]\n"
         );
         let found = orbit(&text, &OrbitChoice::Nearest).unwrap();
         assert!(found.multipliers.iter().flatten().all(|part| part.is_finite()), "{:?}", found.multipliers);
