@@ -128,7 +128,7 @@ fn the_force_of_a_support_with_a_shape_is_that_of_a_support() {
         density = 500\nposition = [0, 0, 0.11]\n";
     let folder = tempfile::tempdir().unwrap();
     let scene = Scene::parse("peg.toml", text, Path::new(""), &[]).unwrap();
-    let recording = record(&scene, &folder.path().join("peg.gyr"));
+    let recording = record(&scene, folder.path());
     let read = |name: &str| recording.read(name).unwrap().data;
     let [contact, pair, of_contacts, of_pairs] =
         ["contact_force", "pair_force", "force_contact", "force_pair"].map(read);

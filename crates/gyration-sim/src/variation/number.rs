@@ -46,6 +46,11 @@ pub(crate) struct SceneNumber {
 const METHOD_TABLES: [&str; 3] = ["solver", "record", "time"];
 /// Keys anywhere that do.
 const METHOD_KEYS: [&str; 4] = ["triangles", "spacing", "tolerance", "history_error"];
+/// Keys of a body that say how it starts.
+const OF_THE_START: [&str; 6] =
+    ["position", "velocity", "angular_velocity", "orientation", "gradient", "gradient_rate"];
+/// A number is changed by this part of it to see whether it has a part in the model.
+const BESIDE: f64 = 1e-6;
 
 impl SceneNumber {
     /// Finds a number by its key.
@@ -127,20 +132,17 @@ impl SceneNumber {
         is_method.then(|| "it says how the motion is computed or recorded, not how it is".into())
     }
 
-    /// Whether the number has a part in the first state only, not in the equations.
+    /// Whether the number has a part in the first state only, not in the equations: the model beside it is the same.
+    ///
+    /// Pins and guides stay where the start has put them, bonds with a stiffness rest there, and angles of hinges count
+    /// from there.
     pub fn starts_only(&self, scene: &Scene) -> bool {
         let mut words = self.key.split('.');
-        let (Some("body"), Some(name), Some(part)) = (words.next(), words.next(), words.next()) else { return false };
-        let named = scene.file().body.iter().position(|body| body.name == name).or_else(|| name.parse().ok());
-        let built = scene.built();
-        // A `[[body]]` may stand for many.
-        let own = built.model.bodies.iter().zip(&built.written).filter(|(_, written)| Some(**written) == named);
-        // A pin or a guide stays where the start has put it, and so belongs to the equations.
-        let is_start =
-            ["position", "velocity", "angular_velocity", "orientation", "gradient", "gradient_rate"].contains(&part);
-        is_start
-            && own.clone().next().is_some()
-            && own.clone().all(|(body, _)| body.pin.is_none() && body.guide.is_none())
+        let is_start = words.next() == Some("body") && words.nth(1).is_some_and(|part| OF_THE_START.contains(&part));
+        // Places of rest serve rows, not rates.
+        let model = |scene: &Scene| format!("{:?}", scene.built().model.clone().resting_at([]));
+        let beside = || self.scene_at(scene, self.value + BESIDE * self.value.abs().max(1.0));
+        is_start && beside().is_ok_and(|beside| model(&beside) == model(scene))
     }
 
     /// The scene with another value in this place.
