@@ -137,6 +137,7 @@ def test_what_a_body_cannot_have_is_refused(ball):
         ({"velocity": "fast"}, "fix: give an array"),
         ({"velocity": [[0, 0, np.nan]]}, "not finite"),
         ({"time": np.inf}, "not finite"),
+        ({"time": 1e17}, "less than three digits"),
     ]:
         with pytest.raises(gyration.ArgumentError, match=why):
             simulation.set_state(**wrong)

@@ -66,6 +66,17 @@ pub enum Refusal {
         /// The body.
         body: String,
     },
+    /// Times near to one that is asked for cannot be told apart.
+    #[error(
+        "at t = {time:e} s the {span} s of the scene have less than three digits: begin at an earlier time, and shift \
+         what depends on it"
+    )]
+    Time {
+        /// What was asked for \[s\].
+        time: f64,
+        /// The end of the scene \[s\].
+        span: f64,
+    },
     /// The body has no drive.
     #[error(
         "body {body:?} has no drive to change: only a contractile body whose contraction is driven has; give it a \

@@ -194,6 +194,10 @@ fn what_makes_no_sense_is_refused() {
     let refused = run.apply(0, force(Vec3::new(f64::NAN, 0.0, 0.0)));
     assert_eq!(refused, Err(Refusal::NotFinite { body: "b".into() }));
     assert_eq!(run.set_drive(0, Mat3::zeros()), Err(Refusal::NoDrive { body: "b".into() }));
+    // Symptom: a step began and ended at the same time.
+    let late = run.begun_anew(1e17, &[]).unwrap().err();
+    assert!(matches!(late, Some(Refusal::Time { time: 1e17, .. })), "{late:?}");
+    assert!(run.begun_anew(1e9, &[]).unwrap().is_ok());
 }
 
 #[test]

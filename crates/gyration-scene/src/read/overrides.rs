@@ -127,7 +127,11 @@ fn step<'a>(at: &'a mut Node, word: &Word<'_>, next: Option<&Word<'_>>) -> Resul
             }
             if is_item && !table.contains_key(word.name) {
                 let message = format!("no `{}` is written here, so that it has no items", word.name);
-                return fault(message, format!("set it as a whole first: {} = [1, 0, 0]", word.name));
+                let whole = match word.name {
+                    "gradient" | "gradient_rate" => "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+                    _ => "[1, 0, 0]",
+                };
+                return fault(message, format!("set it as a whole first: {} = {whole}", word.name));
             }
             let empty = || Node { value: Value::Table(Table::new()), span: word.span };
             let entry = table.entry(word.name.to_owned());

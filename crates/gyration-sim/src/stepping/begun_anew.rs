@@ -20,6 +20,8 @@ use gyration_ode::ExtendedMut;
 /// The largest part of a size, of a matrix, or of the fastest speed that is taken for rounding: 16 units of single
 /// precision.
 const ROUNDING: f64 = 1e-6;
+/// The rounding of a time may be this part of the time of a scene.
+const DIGITS: f64 = 1e-3;
 
 /// A state of one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,7 +56,10 @@ impl SteppedRun {
     }
 
     fn state_with(&self, time: f64, starts: &[BodyStart]) -> Result<State, Refusal> {
-        let model = &self.scene;
+        let (model, span) = (&self.scene, self.plan.end);
+        if time.is_finite() && time.abs() * f64::EPSILON > DIGITS * span {
+            return Err(Refusal::Time { time, span });
+        }
         let mut state = State { time, works: vec![0.0; model.works().len()], ..self.state() };
         let mut asked: Vec<BodyMotion> = (0..model.bodies.len()).map(|body| state.motion(model, body)).collect();
         for start in starts {
