@@ -187,7 +187,7 @@ impl ParameterReader<'_> {
             self.note(
                 &["grid", "count"],
                 format!("{count:?} is no count of values"),
-                &format!("write a whole number from 1 to {MOST_STEPS}"),
+                format!("write a whole number from 1 to {MOST_STEPS}"),
             );
             return None;
         }
