@@ -110,7 +110,7 @@ impl ModelSystem {
         let radius = |surface: &Surface| surface.fastest_point(&Vec3::zeros(), &Mat3::identity());
         let radii = model.bodies.iter().map(|body| body.solid.surface.as_ref().map_or(0.0, radius)).collect();
         let frequencies = (0..model.bodies.len()).map(|body| spring_frequency(&model, start, body)).collect();
-        let stirred = |body: &Arc<Body>| 4.0 * f64::EPSILON * body.size * elastic_frequency(body);
+        let stirred = |body: &Arc<Body>| f64::EPSILON * body.size * elastic_frequency(body);
         let stirred = model.bodies.iter().map(stirred).collect();
         let inertialess = model.bodies.iter().zip(&speeds).filter(|(body, _)| !body.has_inertia());
         let viscous = inertialess.map(|(body, speed)| energy_scale(&model, body, *speed)).sum();

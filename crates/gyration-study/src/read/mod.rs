@@ -116,7 +116,7 @@ fn setting(input: &mut InputFile, key: String) -> (String, String) {
 fn whole(input: &mut InputFile, place: &[&str]) -> Option<u64> {
     let number: f64 = input.take(place)?;
     if number.fract() != 0.0 || number.abs() > MOST_WHOLE {
-        input.note(place, format!("{number:?} is no whole number of at most 15 digits"), "write one");
+        input.note(place, format!("{number:?} is not a whole number of at most 15 digits"), "write a whole number");
         return None;
     }
     Some(number as u64)
