@@ -11,8 +11,7 @@ const MILDER: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
 ///
 /// With real shifts it may not where many lie evenly on a circle, as of cells that change places, or on the imaginary
 /// axis, as of a row of equal bodies; nor where all are near to one, as of a small motion, until their mean is taken
-/// off. Of e^(iφ) times the matrix with a multiple of one added they lie otherwise, and
-/// shifts are complex.
+/// off. Of e^(iφ) times the matrix with a multiple of one added they lie otherwise, and shifts are complex.
 pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let (size, sweeps) = (matrix.nrows(), SWEEPS * matrix.nrows());
     if !matrix.iter().all(|entry| entry.is_finite()) {

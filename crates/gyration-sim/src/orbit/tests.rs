@@ -235,7 +235,8 @@ fn a_conical_pendulum_is_stable_wherever_it_hangs() {
             place - 0.147_760_103_330_669_7
         );
         let joint = format!(
-            "[[joint]]\nname = \"h\"\nkind = \"ball\"\nbetween = [\"space\", \"p\"]\npoints = [[{place:?}, 0, 0], [0, 0, 0.5]]"
+            "[[joint]]\nname = \"h\"\nkind = \"ball\"\nbetween = [\"space\", \"p\"]\n\
+             points = [[{place:?}, 0, 0], [0, 0, 0.5]]"
         );
         let text = pendulum(&joint, &start, "end = 32, sample = 0.08");
         let found = orbit(&text, &OrbitChoice::Period(1.598_948_111_121_649)).unwrap();
@@ -260,7 +261,8 @@ fn a_pendulum_that_swings_far_has_its_period() {
 /// Symptom: what grows to a limit cycle does not come back to where it began, and nothing was found.
 #[test]
 fn a_limit_cycle_is_found_from_a_small_start() {
-    let joint = "[[joint]]\nname = \"h\"\nkind = \"hinge\"\nbetween = [\"space\", \"p\"]\naxis = [0, 1, 0]\n\
+    let joint = "[[joint]]\nname = \"h\"\nkind = \"hinge\"\nbetween = [\"space\", \"p\"]\n\
+                 axis = [0, 1, 0]\n\
                  drive = { torque = \"-angle+0.7*(1-4*angle^2)*rate\" }";
     let start = "orientation = { axis_angle = { axis = [0, 1, 0], angle = 0.3 } }";
     let text = pendulum(joint, start, "end = 60, sample = 0.05")

@@ -12,9 +12,9 @@
 //! | `angular_velocity` | rad/s | half the vorticity of Ṗ P⁻¹, in space |
 //! | `placement` | – | P, row by row |
 //!
-//! The axes are those of the shape, P = R U with half-extents U_ii times those of the shape. A ball or an ellipsoid that
-//! deforms is an ellipsoid, told exactly, by axes of its own. Numbers have as many digits as bring them back. Where bodies
-//! follow one another without end, a frame has the parallelepiped that all of them fill (`cell`).
+//! The axes are those of the shape, P = R U with half-extents U_ii times those of the shape. A ball or an ellipsoid
+//! that deforms is an ellipsoid, told exactly, by axes of its own. Numbers have as many digits as bring them back.
+//! Where bodies follow one another without end, a frame has the parallelepiped that all of them fill (`cell`).
 //!
 //! Source of the format: the manual of OVITO, "XYZ file reader".
 
@@ -97,8 +97,8 @@ impl Form {
 
     /// Half-extents [m] and the rotation of their axes.
     ///
-    /// An ellipsoid with the semi-axes A = diag(a) becomes that of P A Aᵀ Pᵀ: its semi-axes are the singular values of P
-    /// A, along the left vectors.
+    /// An ellipsoid with the semi-axes A = diag(a) becomes that of P A Aᵀ Pᵀ: its semi-axes are the singular values of
+    /// P A, along the left vectors.
     fn turned(&self, p: &Mat3) -> (Vec3, Mat3) {
         if !self.deforms {
             return (self.half_extents, *p);
