@@ -238,8 +238,8 @@ impl Stop {
                 body: None,
                 what: format!("the implicit equations cannot be solved with a step of {step:e} s"),
                 advice: format!(
-                    "Loosen solver.rtol, let solver.method be \"auto\", or shorten solver.max_step{}: what happens within \
-                     the last digit of the time cannot be followed.",
+                    "Loosen solver.rtol, let solver.method be \"auto\", or shorten solver.max_step{}: what happens \
+                     within the last digit of the time cannot be followed.",
                     or_softer_contacts(model)
                 ),
             },

@@ -124,8 +124,8 @@ fn the_force_between_bodies_without_friction_is_normal_and_is_had_again() {
 fn the_force_of_a_support_with_a_shape_is_that_of_a_support() {
     let text = "time = { end = 0.1, sample = 0.05 }\nrecord = { quantities = [\"pair_force\", \"force_by_kind\"] }\n\
         [[support]]\nname = \"peg\"\nshape = { sphere = { radius = 0.05 } }\n[[contact]]\nbetween = [\"a\", \"peg\"]\n\
-        repulsion = { alpha = 100, nu = 4, d0 = 0.01 }\n[[body]]\nname = \"a\"\nshape = { sphere = { radius = 0.05 } }\n\
-        density = 500\nposition = [0, 0, 0.11]\n";
+        repulsion = { alpha = 100, nu = 4, d0 = 0.01 }\n[[body]]\nname = \"a\"\n\
+        shape = { sphere = { radius = 0.05 } }\ndensity = 500\nposition = [0, 0, 0.11]\n";
     let folder = tempfile::tempdir().unwrap();
     let scene = Scene::parse("peg.toml", text, Path::new(""), &[]).unwrap();
     let recording = record(&scene, folder.path());
