@@ -46,7 +46,7 @@ pub struct ModelSystem {
     workspace: OwnWorkspace,
     tolerance: Tolerance,
     speeds: Vec<f64>,
-    /// √(Σk/m) of the springs at each body [1/s].
+    /// √(Σk/m) of the springs and bonds at each body, where they start [1/s].
     frequencies: Vec<f64>,
     /// The rounding of velocities by stresses of each body [m/s].
     stirred: Vec<f64>,
