@@ -222,7 +222,7 @@ mod tests {
     use super::*;
     use crate::mass::MassProperties;
     use crate::material::{Fung, Hencky, Material, MooneyRivlin, NeoHookeanLog};
-    use crate::simd::{WithF64x4, dispatch_f64x4};
+    use crate::simd::{WithF64x4, dispatch_f64x4, in_memory};
     use crate::tensor::Vec3;
 
     /// P̈ and its derivatives by all entries of P, Ṗ and M, bit by bit.
@@ -231,22 +231,25 @@ mod tests {
     impl WithF64x4 for Bits<'_> {
         type Output = Vec<[u64; 9]>;
 
+        // Loops: what iterators call is not compiled for the instruction set.
+        #[inline(always)]
         fn run<F: F64x4>(self, zeros: F) -> Self::Output {
             let Self(body, at, moment) = self;
             let elastic = body.elastic_stress(at, zeros);
             let solution = Solution::new(body, at, elastic, &SimdMat3::of(moment).with(zeros));
             let (slopes, moment) = (body.slopes_in(zeros, at, moment), SimdMat3::of(moment));
             let mut columns = vec![solution.acceleration, solution.stress, slopes.along_moment(&moment, zeros)];
-            for entry in (0..9).map(|place| Entry { j: place % 3, b: place / 3 }) {
+            for place in 0..9 {
+                let entry = Entry { j: place % 3, b: place / 3 };
                 columns.push(slopes.along_gradient(entry, None, zeros));
                 columns.push(slopes.along_rate(entry, Some(&moment), zeros));
             }
-            let bits = |column: &SimdMat3<F>| {
-                let mut numbers = [0.0; 9];
+            let (mut numbers, mut bits) = ([0.0; 9], Vec::new());
+            for column in columns {
                 column.write(&mut numbers);
-                numbers.map(f64::to_bits)
-            };
-            columns.iter().map(bits).collect()
+                bits.push(numbers.map(f64::to_bits));
+            }
+            bits
         }
     }
 
@@ -270,7 +273,7 @@ mod tests {
                 let mass = MassProperties { mass: 2.0, center: Vec3::zeros(), euler_tensor, volume: 0.7 };
                 let body = AffineBody::new(&mass, None, Some(material.clone()), viscosity).unwrap();
                 let at = Gyration::of(&p, &rate).unwrap();
-                let plain = Bits(&body, &at, &moment).run([0.0; 4]);
+                let plain = in_memory(Bits(&body, &at, &moment));
                 assert_eq!(dispatch_f64x4(Bits(&body, &at, &moment)), plain, "{material:?}");
             }
         }

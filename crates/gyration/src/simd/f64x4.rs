@@ -44,6 +44,12 @@ pub(crate) fn dispatch_f64x4<W: WithF64x4>(work: W) -> W::Output {
     if let Some(simd) = pulp::x86::V3::try_new() {
         return simd.vectorize(wide::Wide { simd, work });
     }
+    in_memory(work)
+}
+
+/// Does the work in four numbers in memory, with the same bytes.
+#[inline(never)]
+pub(crate) fn in_memory<W: WithF64x4>(work: W) -> W::Output {
     work.run([0.0; 4])
 }
 

@@ -14,6 +14,8 @@ mod matrix;
 mod pow;
 mod register;
 
+#[cfg(test)]
+pub(crate) use f64x4::in_memory;
 pub(crate) use f64x4::{F64x4, WithF64x4, dispatch_f64x4};
 pub(crate) use matrix::{SimdMat3, SimdVec3, UNIT};
 pub(crate) use pow::{Log2, SplitExponent, exponent_and_mantissa, integer_power, polynomial};
