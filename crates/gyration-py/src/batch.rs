@@ -7,7 +7,7 @@
 use crate::arrays::{Arrays, StateNumbers};
 use crate::convert::{array, numbers_of_members};
 use crate::errors;
-use crate::load::{body_index, load_of};
+use crate::load::{body_index, check_point, load_of};
 use crate::many::{Together, workers};
 use crate::members::{chosen, on_threads};
 use crate::monitor::PythonMonitor;
@@ -22,6 +22,9 @@ use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::num::NonZeroUsize;
+
+/// A batch has no more members: each has a state, a stepper and a checkpoint of its own.
+const MOST_MEMBERS: usize = 1_000_000;
 
 /// Simulations of one scene.
 #[pyclass(module = "gyration", name = "Batch")]
@@ -107,7 +110,10 @@ impl Batch {
     fn new(py: Python<'_>, scene: &Bound<'_, PyAny>, n: i64, threads: Option<i64>) -> PyResult<Self> {
         let scene = Scene::from_argument(scene)?.complete(py)?;
         let count = usize::try_from(n).ok().and_then(NonZeroUsize::new);
-        let count = count.ok_or_else(|| errors::arguments(format!("a batch of {n}\n  fix: give a number from 1")))?;
+        let count = count.filter(|count| count.get() <= MOST_MEMBERS);
+        let count = count.ok_or_else(|| {
+            errors::arguments(format!("a batch of {n}\n  fix: give a number of members from 1 to {MOST_MEMBERS}"))
+        })?;
         let threads = workers(threads)?.min(count);
         let members = py.detach(|| {
             let first = SteppedRun::new(scene.inner.built())?;
@@ -219,6 +225,7 @@ impl Batch {
         let model = self.members[0].model();
         let (index, which) = (body_index(model, body)?, chosen(members, self.members.len())?);
         let center = model.bodies[index].solid.mass.center;
+        check_point(force, at)?;
         let read = |name: &str, object: Option<&Bound<'_, PyAny>>, of_one: &[usize]| {
             object.map(|object| numbers_of_members(name, object, which.len(), of_one)).transpose()
         };

@@ -23,6 +23,19 @@ pub fn body_index(model: &Model, body: &Bound<'_, PyAny>) -> PyResult<usize> {
     })
 }
 
+/// Refuses a point without the force that acts there.
+///
+/// # Errors
+/// An `ArgumentError`.
+pub fn check_point(force: Option<&Bound<'_, PyAny>>, at: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+    match (force, at) {
+        (None, Some(_)) => Err(errors::arguments(
+            "`at` is where `force` acts, and there is none\n  fix: give `force`, or leave `at` out",
+        )),
+        _ => Ok(()),
+    }
+}
+
 /// A load on a body with its centre of mass there in the frame of its shape [m].
 pub fn load_of(force: Vec3, moment: Mat3, torque: Vec3, at: Option<Vec3>, center: &Vec3) -> Applied {
     let mut load = match at {

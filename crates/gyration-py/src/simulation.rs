@@ -7,7 +7,7 @@
 use crate::arrays::{Arrays, StateNumbers};
 use crate::convert::array;
 use crate::errors;
-use crate::load::{body_index, load_of, matrix, vector};
+use crate::load::{body_index, check_point, load_of, matrix, vector};
 use crate::monitor::PythonMonitor;
 use crate::recording::Recording;
 use crate::run::{RecordOptions, exists, place};
@@ -213,6 +213,7 @@ impl Simulation {
         at: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let index = body_index(self.stepper.model(), body)?;
+        check_point(force, at)?;
         let given = |name, object: Option<&_>| object.map(|object| vector(name, object)).transpose();
         let force = given("force", force)?.unwrap_or_default();
         let moment = moment.map(|moment| matrix("moment", moment)).transpose()?.unwrap_or_default();

@@ -93,11 +93,13 @@ def test_what_makes_no_sense_is_refused():
     batch = gyration.Batch(FREE, 3)
     for wrong in [
         lambda: gyration.Batch(FREE, 0),
+        lambda: gyration.Batch(FREE, 10**12),
         lambda: gyration.Batch(FREE, 2, threads=0),
         lambda: batch.advance([1.0, 2.0]),
         lambda: batch.advance(np.nan),
         lambda: batch.apply("box", force=np.zeros((2, 3))),
         lambda: batch.apply("cube", force=[0, 0, 1]),
+        lambda: batch.apply("box", torque=[0, 0, 1], at=[0, 0, 0.1]),
         lambda: batch.apply("box", force=[[0, 0, np.inf]] * 3),
         lambda: batch.reset([0, 0]),
         lambda: batch.reset([3]),

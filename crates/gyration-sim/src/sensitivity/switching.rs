@@ -28,6 +28,10 @@ const ALIKE: f64 = 1e-6;
 const DISTANCE: f64 = 8.0;
 /// The neighbours' t_s are no farther than this part of a step, if they can be as near.
 const NEAR: f64 = 1e-4;
+/// How far before a start that stands at a switch the run is looked at, as a part of a step, and how often that is made
+/// four times as far.
+const FIRST_BACK: f64 = 1e-12;
+const BACK: i32 = 15;
 /// How often a bracket of t_s is halved, at most.
 const HALVINGS: usize = 200;
 
@@ -36,8 +40,8 @@ const HALVINGS: usize = 200;
 pub(super) struct Switching {
     /// When it started [s].
     start: f64,
-    /// Whether each is above zero.
-    sides: Vec<bool>,
+    /// The sign of each; zero of one that has had none so far.
+    sides: Vec<f64>,
     /// By how much each changes with a scale of the state.
     units: Vec<f64>,
     /// Where the formulas change that have been seen last.
@@ -61,6 +65,11 @@ struct Switch {
 struct Rates {
     bodies: Vec<f64>,
     powers: Vec<f64>,
+}
+
+/// The sign of a number; zero of zero.
+fn sign(value: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value.signum() }
 }
 
 impl Rates {
@@ -98,7 +107,7 @@ impl Tangent<'_> {
         let direction: Vec<f64> = self.state.column(self.state.ncols() - 1).iter().copied().collect();
         self.switching.start = self.time;
         self.switching.units = self.switching_along(&direction, 0.0)?.into_iter().map(f64::abs).collect();
-        self.switching.sides = values.iter().map(|value| *value > 0.0).collect();
+        self.switching.sides = values.iter().map(|value| sign(*value)).collect();
         Ok(())
     }
 
@@ -123,8 +132,10 @@ impl Tangent<'_> {
             if known.is_some() {
                 return Ok(known);
             }
-            let bracket = self.bracket(from, [before, later], &changed)?;
-            return self.see(from, bracket, changed).map(Some);
+            match self.bracket(from, [before, later], &changed)? {
+                Some(bracket) => return self.see(from, bracket, changed).map(Some),
+                None => self.take_sides(from, later, &changed)?,
+            }
         }
         Ok(None)
     }
@@ -141,7 +152,7 @@ impl Tangent<'_> {
             self.lose_all(reason(self.model, self.time, &left));
         }
         self.time = switch.states[1].time;
-        switch.which.iter().for_each(|which| self.switching.sides[*which] ^= true);
+        switch.which.iter().for_each(|place| self.switching.sides[*place] *= -1.0);
     }
 
     /// The states to look at in the place of the present one, with their weights, where neighbours of a number have
@@ -184,30 +195,76 @@ impl Tangent<'_> {
     fn changed(&mut self, from: f64, later: f64) -> Result<Vec<usize>, Inadmissible> {
         let values = self.switching_at(from, later)?;
         let Switching { sides, units, .. } = &self.switching;
-        let has_changed =
-            |place: &usize| (values[*place] > 0.0) != sides[*place] && values[*place].abs() >= ROUNDING * units[*place];
+        let has_changed = |place: &usize| {
+            sign(values[*place]) != sides[*place]
+                && values[*place].abs() >= (ROUNDING * units[*place]).max(f64::MIN_POSITIVE)
+        };
         Ok((0..values.len()).filter(has_changed).collect())
     }
 
-    /// Halves a bracket of the first change of sign of some of them while there are times in it.
+    /// The last time with the old signs of some of them, and the first at which one has another: in between they may be
+    /// zero. The start may be there: before it stands what the run comes from. None if they have never had a sign.
     fn bracket(
         &mut self,
         from: f64,
-        [mut before, mut behind]: [f64; 2],
+        [before, later]: [f64; 2],
         which: &[usize],
+    ) -> Result<Option<[f64; 2]>, Inadmissible> {
+        let values = self.switching_at(from, later)?;
+        for place in which {
+            self.switching.sides[*place] = -sign(values[*place]);
+        }
+        let mut backwards =
+            [before, 0.0].into_iter().chain((0..BACK).map(|k| -FIRST_BACK * later * libm::ldexp(1.0, 2 * k)));
+        let first = loop {
+            let Some(at) = backwards.next() else { return Ok(None) };
+            if self.have_old_signs(from, at, which)? {
+                break at;
+            }
+        };
+        let [before, mut behind] =
+            self.halve(from, [first, later], |this, at| Ok(!this.have_old_signs(from, at, which)?))?;
+        if !self.has_new_sign(from, behind, which)? {
+            [_, behind] = self.halve(from, [behind, later], |this, at| this.has_new_sign(from, at, which))?;
+        }
+        Ok(Some([before, behind]))
+    }
+
+    fn have_old_signs(&mut self, from: f64, at: f64, which: &[usize]) -> Result<bool, Inadmissible> {
+        let values = self.switching_at(from, at)?;
+        Ok(which.iter().all(|place| values[*place] * self.switching.sides[*place] > 0.0))
+    }
+
+    fn has_new_sign(&mut self, from: f64, at: f64, which: &[usize]) -> Result<bool, Inadmissible> {
+        let values = self.switching_at(from, at)?;
+        Ok(which.iter().any(|place| values[*place] * self.switching.sides[*place] < 0.0))
+    }
+
+    /// Halves a bracket, at whose end something holds and at whose beginning not, while there are times in it.
+    fn halve(
+        &mut self,
+        from: f64,
+        [mut before, mut behind]: [f64; 2],
+        mut holds: impl FnMut(&mut Self, f64) -> Result<bool, Inadmissible>,
     ) -> Result<[f64; 2], Inadmissible> {
         for _ in 0..HALVINGS {
             let middle = 0.5 * (before + behind);
             if from + middle <= from + before || from + middle >= from + behind {
                 break;
             }
-            let values = self.switching_at(from, middle)?;
-            match which.iter().any(|place| (values[*place] > 0.0) != self.switching.sides[*place]) {
+            match holds(self, middle)? {
                 true => behind = middle,
                 false => before = middle,
             }
         }
         Ok([before, behind])
+    }
+
+    /// Takes the signs that they have so long after a time for those that they always had.
+    fn take_sides(&mut self, from: f64, later: f64, which: &[usize]) -> Result<(), Inadmissible> {
+        let values = self.switching_at(from, later)?;
+        which.iter().for_each(|place| self.switching.sides[*place] = sign(values[*place]));
+        Ok(())
     }
 
     /// The derivatives of the switching functions along a direction of the present state, in which t goes on at a rate.
@@ -222,14 +279,16 @@ impl Tangent<'_> {
     /// Takes down where formulas change, and how near to it each number may look at ∂f/∂p.
     fn see(&mut self, from: f64, bracket: [f64; 2], mut which: Vec<usize>) -> Result<f64, Inadmissible> {
         let values = self.switching_at(from, bracket[1])?;
-        which.retain(|place| (values[*place] > 0.0) != self.switching.sides[*place]);
+        which.retain(|place| values[*place] * self.switching.sides[*place] < 0.0);
         let behind = self.at.clone();
         self.look_at(from, bracket[0]);
         let before = self.at.clone();
         let time = before.time;
         let rates = self.rates_here()?;
         let speeds = self.switching_along(&rates.bodies, 1.0)?;
-        let (length, model) = (self.history.step_at(time), self.model);
+        // Steps of the run are short about a jump.
+        let length = if self.size.is_finite() { self.size } else { self.history.step_at(time) };
+        let model = self.model;
         let (mut by_number, mut margins) = (Vec::new(), Vec::new());
         for followed in &mut self.columns {
             let mut found = None;

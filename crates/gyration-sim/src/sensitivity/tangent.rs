@@ -86,7 +86,8 @@ pub(super) struct Tangent<'a> {
     /// W.
     pub(super) works: DMatrix<f64>,
     pub(super) time: f64,
-    size: f64,
+    /// Of the next step.
+    pub(super) size: f64,
     tolerance: f64,
     /// rtol of the run.
     rtol: f64,
