@@ -26,7 +26,7 @@ const SAME: f64 = 1e-9;
 const ALIKE: f64 = 1e-6;
 /// How many times as far as the neighbours' t_s ∂f/∂p stays from it.
 const DISTANCE: f64 = 8.0;
-/// The neighbours' t_s are no farther than this part of a step, if they can be as near.
+/// The neighbours' t_s are no farther than this part of a step of the run, if they can be as near.
 const NEAR: f64 = 1e-4;
 /// How far before a start that stands at a switch the run is looked at, as a part of a step, and how often that is made
 /// four times as far.
@@ -286,9 +286,7 @@ impl Tangent<'_> {
         let time = before.time;
         let rates = self.rates_here()?;
         let speeds = self.switching_along(&rates.bodies, 1.0)?;
-        // Steps of the run are short about a jump.
-        let length = if self.size.is_finite() { self.size } else { self.history.step_at(time) };
-        let model = self.model;
+        let (length, model) = (self.run_step, self.model);
         let (mut by_number, mut margins) = (Vec::new(), Vec::new());
         for followed in &mut self.columns {
             let mut found = None;

@@ -40,6 +40,8 @@ const CHANGE: (f64, f64) = (0.2, 4.0);
 /// A step may be so many times as long as the shortest step of the run that it passes: several of its nodes then stand
 /// where the run found something to look at.
 const SPAN: f64 = 8.0;
+/// The longest step of the run is forgotten at this rate with each step.
+const FORGOTTEN: f64 = 0.95;
 /// The run is kept for no more of its steps than that.
 const MOST_STEPS: usize = 100;
 /// A step may not be smaller than this part of a step of the run: of a body at rest that is long, but what is varied in
@@ -86,8 +88,9 @@ pub(super) struct Tangent<'a> {
     /// W.
     pub(super) works: DMatrix<f64>,
     pub(super) time: f64,
-    /// Of the next step.
-    pub(super) size: f64,
+    size: f64,
+    /// The longest step of the run lately [s]: about a jump they are short.
+    pub(super) run_step: f64,
     tolerance: f64,
     /// rtol of the run.
     rtol: f64,
@@ -171,6 +174,7 @@ impl<'a> Tangent<'a> {
             works,
             time: start.time,
             size: f64::INFINITY,
+            run_step: 0.0,
             tolerance: SHARE * plan.tolerance.rtol,
             rtol: plan.tolerance.rtol,
             follows_works: false,
@@ -254,6 +258,9 @@ impl<'a> Tangent<'a> {
         if self.is_followed() {
             self.history.record(run);
             self.tried[1] += 1;
+            if let Some((from, to)) = run.last_step() {
+                self.run_step = (FORGOTTEN * self.run_step).max(to - from);
+            }
         }
     }
 
@@ -323,7 +330,7 @@ impl<'a> Tangent<'a> {
         let Some(step) = self.rule.step(&nodes.sets, &self.state, size, &nodes.stages) else {
             return Ok(CHANGE.0 * size);
         };
-        let powers = if self.follows_works { self.powers(&step, &nodes)? } else { Vec::new() };
+        let powers = if self.follows_works { self.powers(&step, &nodes, size)? } else { Vec::new() };
         let error = self.error(&step, &powers, size) / self.tolerance;
         if error > 1.0 || error.is_nan() {
             let factor = if error.is_finite() { 0.9 * libm::pow(error, -0.1) } else { 0.0 };

@@ -79,7 +79,7 @@ fn many_passages_of_a_spinning_box_agree_with_runs() {
     let text = r#"
         time = { end = 7, sample = 1 }
         world = { gravity = [0, 0, 0] }
-        constants = { k = 2, w = 0.3 }
+        constants = { k = 2, w = 0.002 }
         [[body]]
         name = "box"
         shape = { box = { size = [0.3, 0.2, 0.1] } }
