@@ -11,4 +11,3 @@ mod meaningless;
 mod random;
 mod samples;
 pub mod support;
-mod switching;
