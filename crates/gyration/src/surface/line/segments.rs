@@ -42,8 +42,9 @@ pub(crate) fn line_moments<S: Simd>(
     if !cfg!(debug_assertions) {
         return along(line, near, far, degree);
     }
+    debug_assert!((1..=4).contains(&degree), "a degree of 1 to 4");
     match degree {
-        0 | 1 => simd.vectorize(Along::<S, 1> { line, near, far }),
+        1 => simd.vectorize(Along::<S, 1> { line, near, far }),
         2 => simd.vectorize(Along::<S, 2> { line, near, far }),
         3 => simd.vectorize(Along::<S, 3> { line, near, far }),
         _ => simd.vectorize(Along::<S, 4> { line, near, far }),
