@@ -31,16 +31,3 @@ pub struct NotInGallery(String);
 pub(crate) fn find(name: &str) -> Option<&'static str> {
     SCENES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Scene;
-
-    #[test]
-    fn titles_are_those_of_the_scenes() {
-        for (name, text) in SCENES {
-            assert_eq!(gallery_title(text).as_deref(), Some(Scene::open(name, &[]).unwrap().title()), "{name}");
-        }
-    }
-}

@@ -24,4 +24,5 @@ mod own_forces;
 mod robust;
 mod scenes;
 mod solid_supports;
+mod templates;
 mod together;

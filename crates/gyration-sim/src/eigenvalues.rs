@@ -86,4 +86,15 @@ mod tests {
         println!("off by {off:e}");
         assert!(off < 1e-11, "{off:e}");
     }
+
+    #[test]
+    fn multipliers_that_lie_evenly_on_a_circle_are_found() {
+        // Cells that change places: the roots of one.
+        let turned = |n: usize| DMatrix::from_fn(n, n, |i, j| f64::from(u8::from((i + 1) % n == j)));
+        for n in [2, 3, 4, 6, 8] {
+            let found = eigenvalues(&turned(n)).unwrap();
+            let off = found.iter().map(|mu| (mu.powu(n as u32) - 1.0).norm()).fold(0.0, f64::max);
+            assert!(found.len() == n && off < 1e-11, "{n}: {found:?}");
+        }
+    }
 }

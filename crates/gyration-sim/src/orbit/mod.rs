@@ -12,8 +12,6 @@ mod chart;
 mod choice;
 mod shift;
 mod survey;
-#[cfg(test)]
-mod tests;
 mod trial;
 
 pub use choice::{Choice, energy};

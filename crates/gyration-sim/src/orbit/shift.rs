@@ -58,7 +58,7 @@ impl CellShift {
     }
 
     /// S⁻¹ y.
-    pub(super) fn back(&self, state: &State) -> State {
+    pub fn back(&self, state: &State) -> State {
         let moved = |numbers: &[f64]| match numbers.is_empty() {
             true => Vec::new(),
             false => self.from.iter().map(|place| numbers[*place]).collect(),

@@ -12,8 +12,6 @@ mod fourier;
 mod oscillator;
 mod ring;
 mod sums;
-#[cfg(test)]
-mod tests;
 mod times;
 
 use crate::format::significant;

@@ -77,33 +77,3 @@ pub(super) fn write_springs(text: &mut String, springs: &[SpringSurvey]) {
         let _ = writeln!(text, "           and {} springs more: all with --json", springs.len() - MOST);
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::survey::Survey;
-    use gyration_scene::Scene;
-    use std::path::Path;
-
-    #[test]
-    fn springs_are_told_with_the_period_of_two_free_bodies() {
-        let ball = |name: &str, mass: f64, place: f64| {
-            format!(
-                "[[body]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nmass = {mass}\n\
-                 position = [{place}, 0, 0]\n"
-            )
-        };
-        let spring = "[[spring]]\nbetween = [\"a\", \"b\"]\npoints = [[0.1, 0, 0], [0, 0, 0]]\n\
-                      stiffness = 6\nrest_length = 1.5\ndamping = 1.2\n";
-        let text = ["time = { end = 1, sample = 1 }\n", &ball("a", 1.0, 0.0), &ball("b", 2.0, 2.0), spring].concat();
-        let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
-        let survey = Survey::of(&scene).unwrap();
-        let [told] = &survey.springs[..] else { panic!("{:?}", survey.springs) };
-        // μ = 2/3 kg, ω = 3 rad/s, ζ = 1.2/(2·2).
-        assert!((told.period.unwrap() - std::f64::consts::TAU / 3.0).abs() < 1e-15);
-        assert!((told.damping_ratio.unwrap() - 0.3).abs() < 1e-15 && (told.initial_length - 1.9).abs() < 1e-15);
-        let line =
-            "spring     a to b: 6 N/m, 1.5 m without force, 1.9 m at the start; period 2.0944 s, damping ratio 0.3\n";
-        let words = survey.text(&scene).unwrap();
-        assert!(words.contains(line), "{words}");
-    }
-}

@@ -1,8 +1,9 @@
 //! Orbits: a point in a well with x⁴, by each choice; what is no orbit.
 
-use super::{CellShift, NoShift, OrbitChoice, OrbitSurvey};
 use gyration::state::State;
 use gyration_scene::Scene;
+use gyration_sim::complete;
+use gyration_sim::orbit::{CellShift, NoShift, OrbitChoice, OrbitSurvey};
 use std::path::Path;
 
 /// ẍ + x + x³ = 0; nothing holds it across.
@@ -169,14 +170,7 @@ rest_length = 0.1
 }
 
 #[test]
-fn multipliers_that_lie_evenly_on_a_circle_are_found() {
-    // Cells that change places: the roots of one.
-    let turned = |n: usize| nalgebra::DMatrix::from_fn(n, n, |i, j| f64::from(u8::from((i + 1) % n == j)));
-    for n in [2, 3, 4, 6, 8] {
-        let found = crate::eigenvalues::eigenvalues(&turned(n)).unwrap();
-        let off = found.iter().map(|mu| (mu.powu(n as u32) - 1.0).norm()).fold(0.0, f64::max);
-        assert!(found.len() == n && off < 1e-11, "{n}: {found:?}");
-    }
+fn multipliers_that_lie_evenly_on_a_circle_are_those_of_a_ring() {
     let ring = r#"
 world = { gravity = [0, 0, 0] }
 time = { end = 1, sample = 0.5 }
@@ -192,7 +186,7 @@ stiffness = 40
 rest_length = 0.1
 "#;
     let scene = Scene::parse("scene.toml", ring, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"));
-    let scene = crate::complete(scene).unwrap_or_else(|errors| panic!("{errors}"));
+    let scene = complete(scene).unwrap_or_else(|errors| panic!("{errors}"));
     let found = OrbitSurvey::of(&scene, &OrbitChoice::Nearest, Some([1, 0, 0])).unwrap();
     // q/ω, ω² = 2k/m.
     assert!((found.period - 0.5 * std::f64::consts::PI / 160_f64.sqrt()).abs() < 1e-10, "{}", found.period);

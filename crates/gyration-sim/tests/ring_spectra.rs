@@ -1,9 +1,9 @@
 //! Spectra of small rings: one wave, energies that add up, ribbons, what is refused and told.
 
-use super::{NoRingSpectrum, RingSpectrum};
-use crate::record::{Job, Provenance, Unwatched};
+use crate::runs::provenance;
 use gyration_record::Recording;
 use gyration_scene::Scene;
+use gyration_sim::{Job, NoRingSpectrum, RingSpectrum, Unwatched, complete};
 use std::path::Path;
 
 /// A ring of masses of half a kilogram on springs of 40 N/m; what else the lattice and the scene have.
@@ -30,10 +30,10 @@ rest_length = 0.1
 fn spectrum(text: &str) -> Result<RingSpectrum, NoRingSpectrum> {
     let scene =
         Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}\n{text}"));
-    let scene = crate::complete(scene).unwrap_or_else(|errors| panic!("{errors}"));
+    let scene = complete(scene).unwrap_or_else(|errors| panic!("{errors}"));
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.gyr");
-    Job::of(&scene, &Provenance { version: "test".into(), commit: None }).record(&path, &mut Unwatched).unwrap();
+    Job::of(&scene, &provenance()).record(&path, &mut Unwatched).unwrap();
     RingSpectrum::of(&Recording::open(&path).unwrap(), true)
 }
 
