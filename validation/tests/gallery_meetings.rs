@@ -80,10 +80,10 @@ fn a_row_of_dominoes_topples_faster_without_friction_between_them() {
 
 #[test]
 fn a_long_row_of_dominoes_comes_to_the_speed_of_its_wave() {
-    let (height, thickness, pitch, dominoes) = (0.05, 0.0075, 0.0275, 15);
+    let (height, thickness, pitch, dominoes) = (0.05, 0.0075, 0.0275, 13);
     let laws = "repulsion = { alpha = 1e3, nu = 6, d0 = 1e-4 }\ndamping = { beta = 5e4, nu = 6, d0 = 1e-4 }\n";
     let mut scene = format!(
-        "time = {{ end = 0.45, sample = 0.001 }}\nsolver = {{ rtol = 1e-6, atol = 1e-8 }}\n\
+        "time = {{ end = 0.4, sample = 0.001 }}\nsolver = {{ rtol = 1e-5, atol = 1e-7 }}\n\
          [[support]]\nname = \"floor\"\nplane = {{}}\n[[contact]]\nsupport = \"floor\"\n{laws}\
          friction = {{ beta = 3e5, nu = 6, d0 = 1e-4 }}\n\
          [[contact]]\nbetween = [\"domino\", \"domino\"]\n{laws}reach = 5e-3\n"

@@ -11,7 +11,7 @@ fn last(run: &Run, column: &str) -> f64 {
 
 #[test]
 fn a_ball_knocks_a_brick_out_of_a_wall() {
-    let experiment = Experiment::of_gallery("bricks", &[]);
+    let experiment = Experiment::of_gallery("bricks", &["solver.rtol=1e-5", "solver.atol=1e-7"]);
     let run = experiment.run();
     for brick in 0..9 {
         let motion = run.end.motion(&experiment.model, brick);

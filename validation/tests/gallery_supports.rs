@@ -37,7 +37,7 @@ fn a_ball_that_rolls_leaves_a_fixed_ball_later_than_one_that_slides() {
 
 #[test]
 fn balls_on_a_turntable_go_round_at_two_sevenths_of_its_rate() {
-    let run = Experiment::of_gallery("turntable", &[]).run();
+    let run = Experiment::of_gallery("turntable", &["solver.rtol=1e-5", "solver.atol=1e-7"]).run();
     let case = Case { row: None, name: "gallery: turntable", source: "2/7 Ω t, Ω = π rad/s, t = 3.5 s" };
     for (quantity, ball, center) in [
         ("angle of the near ball [rad]", "near", 0.0),
@@ -54,7 +54,7 @@ fn balls_on_a_turntable_go_round_at_two_sevenths_of_its_rate() {
 #[test]
 fn a_drum_carries_balls_up_the_side_that_rises() {
     let experiment = Experiment::of_gallery("drum", &[]);
-    let run = experiment.run();
+    let run = Experiment::of_gallery("drum", &["solver.rtol=1e-5", "solver.atol=1e-7"]).run();
     let places = |run: &gyration_validation::Run, axis: &str| {
         [0, 1, 2].map(|ball| *run.column(&format!("ball-{ball}.{axis}")).last().unwrap())
     };

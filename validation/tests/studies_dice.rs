@@ -33,7 +33,7 @@ fn deviations((p, n): (f64, usize), (q, m): (f64, usize)) -> f64 {
 
 #[test]
 fn cube_is_fair_and_favours_its_lowest_face_the_more_the_stronger_the_damping() {
-    const THROWS: usize = 800;
+    const THROWS: usize = 400;
     let study = Studied::ready("dice-fairness");
     let of_point = |point: u64| Studied::new(&study, &first(&study, point, THROWS as u64));
     let (weak, strong) = (of_point(0), of_point(study.points() - 1));
@@ -44,10 +44,10 @@ fn cube_is_fair_and_favours_its_lowest_face_the_more_the_stronger_the_damping() 
     }
     let expected = 2.0 * THROWS as f64 / 6.0;
     let chi_square = counts.iter().map(|count| (*count as f64 - expected).powi(2) / expected).sum();
-    println!("1600 throws of dice-fairness: {counts:?}");
+    println!("800 throws of dice-fairness: {counts:?}");
     Answer {
         row: Some(23),
-        case: "study dice-fairness, 800 throws each of the weakest and of the strongest damping",
+        case: "study dice-fairness, 400 throws each of the weakest and of the strongest damping",
         quantity: "χ² of the faces, five degrees of freedom",
         reference: 5.0,
         measured: chi_square,
@@ -69,12 +69,12 @@ fn cube_is_fair_and_favours_its_lowest_face_the_more_the_stronger_the_damping() 
 fn throws_of_dice_fairness_have_converged() {
     let study = Studied::ready("dice-fairness");
     let finer = finer("dice-fairness.toml", include_str!("../../studies/dice-fairness.toml"));
-    let runs: Vec<u64> = (0..study.points()).flat_map(|point| first(&study, point, 100)).collect();
+    let runs: Vec<u64> = (0..study.points()).flat_map(|point| first(&study, point, 50)).collect();
     let faces = [&study, &finer].map(|study| Studied::new(study, &runs).words("face"));
     let changed = faces[0].iter().zip(&faces[1]).filter(|(a, b)| a != b).count();
     Answer {
         row: None,
-        case: "study dice-fairness, 400 throws, rtol a tenth as large",
+        case: "study dice-fairness, 200 throws, rtol a tenth as large",
         quantity: "share of the faces that change",
         reference: 0.0,
         measured: changed as f64 / runs.len() as f64,
