@@ -34,9 +34,23 @@ pub struct Scratch {
     adjoints: Vec<f64>,
     tangents: Vec<f64>,
     adjoint_tangents: Vec<f64>,
+    /// The switching functions of what is evaluated, where they are taken down.
+    switching: Option<Vec<f64>>,
 }
 
 impl Scratch {
+    /// Takes down, from now on, the switching functions of each value that is computed: a of |a|, a − b of min(a, b)
+    /// and max(a, b), in the order of the text. Where one of them changes its sign the value goes over to another
+    /// formula.
+    pub fn watch_switching(&mut self) {
+        self.switching = Some(Vec::new());
+    }
+
+    /// What was taken down, and no longer from now on.
+    pub fn take_switching(&mut self) -> Vec<f64> {
+        self.switching.take().unwrap_or_default()
+    }
+
     fn fit(&mut self, steps: usize) {
         for numbers in [&mut self.values, &mut self.adjoints, &mut self.tangents, &mut self.adjoint_tangents] {
             numbers.resize(steps, 0.0);
@@ -163,6 +177,10 @@ impl Expression {
         for (place, step) in self.tape.steps.iter().enumerate() {
             last = step.operation.value(variables, &scratch.values).map_err(|lack| step.undefined(lack))?;
             scratch.values[place] = last;
+        }
+        if let Some(switching) = &mut scratch.switching {
+            let values = &scratch.values;
+            switching.extend(self.tape.steps.iter().filter_map(|step| step.operation.switching(values)));
         }
         Ok(last)
     }

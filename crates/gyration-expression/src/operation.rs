@@ -152,6 +152,16 @@ impl Operation {
         }
     }
 
+    /// The number at whose zero it goes over to another formula, of the values of the operands; none of one that is
+    /// smooth.
+    pub(crate) fn switching(self, values: &[f64]) -> Option<f64> {
+        match self {
+            Operation::Of(Function::Abs, a) => Some(values[a]),
+            Operation::Between(Binary::Minimum | Binary::Maximum, a, b) => Some(values[a] - values[b]),
+            _ => None,
+        }
+    }
+
     /// Value, of `variables` and the values of the operands.
     pub(crate) fn value(self, variables: &[f64], values: &[f64]) -> Result<f64, Lack> {
         let value = match self {

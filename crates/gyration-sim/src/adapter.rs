@@ -166,6 +166,14 @@ impl ModelSystem {
         self.noted(found)
     }
 
+    /// The switching functions of its formulas, as [`Workspace::switching`].
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where the state is outside the model.
+    pub(crate) fn switching(&mut self, t: f64, y: Extended) -> Result<Vec<f64>, Inadmissible> {
+        self.workspace.get().switching(&self.model, t, Numbers { high: y.high, low: y.low })
+    }
+
     /// The model.
     pub fn model(&self) -> &Model {
         &self.model

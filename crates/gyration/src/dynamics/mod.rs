@@ -3,7 +3,8 @@
 //! `rates` is the file to read first. `loads` is the one loop over what acts on a body; `rigid`, `affine` and
 //! `contractile` solve the balance of each kind, `history` and `affine_history` that of a sphere whose past motion the
 //! fluid feels, `body_rates` that of any body, `guided` and `reaction` what a guide makes of it; `jacobian`
-//! differentiates it; `inertialess` stands above both, `joints` above these, and `rates` over all.
+//! differentiates it, `switching` tells where it cannot; `inertialess` stands above both, `joints` above these, and
+//! `rates` over all.
 
 mod affine;
 mod affine_history;
@@ -29,6 +30,7 @@ mod pushes;
 mod rates;
 mod reaction;
 mod rigid;
+mod switching;
 
 pub use by_kind::{LoadsByKind, loads_by_kind};
 pub use contact_parts::{ContactParts, contact_parts};
@@ -122,9 +124,18 @@ impl Workspace {
         model: &'a Model,
         state: &State,
     ) -> Result<(Instant<'a>, &'a mut Scratch), Inadmissible> {
+        self.read_at(model, state.time, state.numbers())
+    }
+
+    fn read_at<'a>(
+        &'a mut self,
+        model: &'a Model,
+        time: f64,
+        state: Numbers,
+    ) -> Result<(Instant<'a>, &'a mut Scratch), Inadmissible> {
         let Self { instants, scratch, .. } = self;
         scratch.far_slabs.clear();
-        let mut instant = instants.read(model, state.time, state.numbers())?;
+        let mut instant = instants.read(model, time, state)?;
         inertialess::solve(&mut instant, scratch)?;
         joints::solve(&mut instant, scratch)?;
         Ok((instant, scratch))

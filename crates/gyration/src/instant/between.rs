@@ -10,7 +10,7 @@ use crate::fluid::{SphereLoads, SpheresTouch};
 use crate::inadmissible::{FormulaOf, Inadmissible, Quantity};
 use crate::joint::{JointLoads, MotorSlopes};
 use crate::kinematics::BodyMotion;
-use crate::load::{BondFault, BondLoads, BondPlace, BondSlopes, Interaction, SpringLoads};
+use crate::load::{Bond, BondFault, BondLoads, BondPlace, BondSlopes, Interaction, SpringLoads};
 use crate::model::{Model, PATIENCE};
 use crate::neighbours::Pair;
 use crate::pair::{Guess, PairFault, PairLoads, PairScratch, PairSlopes, Side};
@@ -143,21 +143,8 @@ impl Between {
         self.bonds.clear();
         self.bond_slopes.clear();
         for (number, bond) in model.bonds().iter().enumerate() {
-            let bodies = bond.bodies.map(|body| motions.at(model, body));
-            let place = BondPlace {
-                motions: [bodies[0].motion, bodies[1].motion],
-                inverses: [bodies[0].inverse(), bodies[1].inverse()],
-                turn: [!bodies[0].body.is_point(), !bodies[1].body.is_point()],
-                shift: model.lattice.place(bond.cell),
-                time: motions.time(),
-            };
-            let faulty = |fault| match fault {
-                BondFault::NoLength => bodies[0].outside(Quantity::BondLength { bond: number }, 0.0),
-                BondFault::Undefined(undefined) => {
-                    let of = FormulaOf::Bond(number);
-                    bodies[0].outside(Quantity::Formula { of, undefined }, undefined.argument)
-                }
-            };
+            let place = bond_place(model, motions, bond);
+            let faulty = |fault| bond_fault(model, motions, number, fault);
             self.bonds.push(bond.loads(&place, &mut self.formulas).map_err(faulty)?);
             if *wanted == Wanted::Slopes {
                 self.bond_slopes.push(bond.slopes(&place, &mut self.formulas).map_err(faulty)?);
@@ -288,6 +275,43 @@ impl Looked<'_> {
 
     fn find_slopes(&self, slopes: &mut PairSlopes, room: &mut PairScratch) -> Result<(), PairFault> {
         with_sides(self.pair, self.parties, |sides| slopes.find(&self.pair.form, sides, self.guess, room))
+    }
+}
+
+/// Evaluates the formulas of all bonds and motors once, in their order.
+pub(super) fn evaluate_formulas(
+    model: &Model,
+    motions: &Motions,
+    formulas: &mut FormulaScratch,
+) -> Result<(), Inadmissible> {
+    for (number, bond) in model.bonds().iter().enumerate() {
+        let loads = bond.loads(&bond_place(model, motions, bond), formulas);
+        loads.map_err(|fault| bond_fault(model, motions, number, fault))?;
+    }
+    (0..model.joints().len()).try_for_each(|number| driven(model, motions, number, false, formulas).map(|_| ()))
+}
+
+/// The two bodies of a bond.
+fn bond_place<'a>(model: &'a Model, motions: &'a Motions, bond: &Bond) -> BondPlace<'a> {
+    let bodies = bond.bodies.map(|body| motions.at(model, body));
+    BondPlace {
+        motions: [bodies[0].motion, bodies[1].motion],
+        inverses: [bodies[0].inverse(), bodies[1].inverse()],
+        turn: [!bodies[0].body.is_point(), !bodies[1].body.is_point()],
+        shift: model.lattice.place(bond.cell),
+        time: motions.time(),
+    }
+}
+
+/// A state outside the model, for what became of a bond.
+fn bond_fault(model: &Model, motions: &Motions, number: usize, fault: BondFault) -> Inadmissible {
+    let first = motions.at(model, model.bonds()[number].bodies[0]);
+    match fault {
+        BondFault::NoLength => first.outside(Quantity::BondLength { bond: number }, 0.0),
+        BondFault::Undefined(undefined) => {
+            let of = FormulaOf::Bond(number);
+            first.outside(Quantity::Formula { of, undefined }, undefined.argument)
+        }
     }
 }
 

@@ -37,6 +37,7 @@ use crate::pair::PairScratch;
 use crate::team::{Rooms, Team};
 use crate::tensor::Vec3;
 use between::{Between, Looking, Wanted};
+use gyration_expression::Scratch as FormulaScratch;
 pub(crate) use joined::{jet, second};
 pub(crate) use motions::Motions;
 use slabs::Remembered;
@@ -289,6 +290,14 @@ impl Instant<'_> {
         let pairs = bodies.flat_map(|body| self.at(body).pairs().filter(|pair| pair.end.counts()));
         let pairs = pairs.map(|pair| (pair.end.interaction.cell, pair.on_body().force));
         springs.chain(bonds).chain(pairs).filter(|(cell, _)| *cell != HERE).collect()
+    }
+
+    /// Evaluates the formulas of all bonds and motors once more, in their order.
+    ///
+    /// # Errors
+    /// [`Inadmissible`] where one is undefined.
+    pub(crate) fn evaluate_formulas(&self, formulas: &mut FormulaScratch) -> Result<(), Inadmissible> {
+        between::evaluate_formulas(self.model, self.motions, formulas)
     }
 
     /// Tells what a joint of the model does.
