@@ -94,13 +94,7 @@ impl Kinks {
             return [(time, 1.0), (time, 0.0), (time, 0.0)];
         };
         let side = if self.is_at(kink, time) || time < kink.time { -1.0 } else { 1.0 };
-        let away = side * (time - kink.time) / self.margin;
-        let place = |times: f64| kink.time + side * times * self.margin;
-        [
-            (place(1.0), 0.5 * (away - 2.0) * (away - 3.0)),
-            (place(2.0), -(away - 1.0) * (away - 3.0)),
-            (place(3.0), 0.5 * (away - 1.0) * (away - 2.0)),
-        ]
+        parabola(kink.time, side, self.margin, time)
     }
 
     /// The kink that a step which ends at a time has come to, once: the steps of a run are short about a jump.
@@ -119,6 +113,18 @@ impl Kinks {
     fn is_at(&self, kink: &Kink, time: f64) -> bool {
         is_same(kink.time, time)
     }
+}
+
+/// Three times on one side of a kink, at one, two and three margins from it, with the weights by which a parabola leads
+/// from there to a time.
+pub(super) fn parabola(kink: f64, side: f64, margin: f64, time: f64) -> [(f64, f64); 3] {
+    let away = side * (time - kink) / margin;
+    let place = |times: f64| kink + side * times * margin;
+    [
+        (place(1.0), 0.5 * (away - 2.0) * (away - 3.0)),
+        (place(2.0), -(away - 1.0) * (away - 3.0)),
+        (place(3.0), 0.5 * (away - 1.0) * (away - 2.0)),
+    ]
 }
 
 /// Two times are the same but for rounding.

@@ -5,7 +5,8 @@
 //! for a number p (a dotted key, as in `--set`) and a recorded quantity r (a column of the CSV), at the end or at each
 //! sample. The run is the usual one; S follows it step by step (`tangent`) with the exact Jacobian, by a method that
 //! neither stiffness nor long steps harm (`collocation`). What depends on p at a fixed state is differentiated between
-//! models of neighbouring scenes (`crate::variation`); where a kink of a signal moves with p, so does S (`kinks`).
+//! models of neighbouring scenes (`crate::variation`); where a kink of a signal moves with p, so does S (`kinks`);
+//! where a formula goes over to another, S goes along (`switching`).
 //!
 //! A derivative is one at a fixed time. Where it means nothing there is a [`Meaningless`] with the reason: see
 //! `docs/sensitivities.md`.
@@ -19,6 +20,7 @@ mod kinks;
 mod probe;
 mod quantity;
 mod stage_equations;
+mod switching;
 mod tangent;
 mod works;
 

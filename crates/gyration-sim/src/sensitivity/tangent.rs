@@ -15,6 +15,7 @@ use super::kinks::Kinks;
 use super::probe::{SCALES, fill_scales, meaningless, reason};
 use super::quantity::Quantities;
 use super::stage_equations::STAGES;
+use super::switching::Switching;
 use super::{GROWN, Meaningless, SensitivityCounts};
 use crate::adapter::ModelSystem;
 use crate::outcome::Stop;
@@ -39,6 +40,8 @@ const CHANGE: (f64, f64) = (0.2, 4.0);
 /// A step may be so many times as long as the shortest step of the run that it passes: several of its nodes then stand
 /// where the run found something to look at.
 const SPAN: f64 = 8.0;
+/// The longest step of the run is forgotten at this rate with each step.
+const FORGOTTEN: f64 = 0.95;
 /// The run is kept for no more of its steps than that.
 const MOST_STEPS: usize = 100;
 /// A step may not be smaller than this part of a step of the run: of a body at rest that is long, but what is varied in
@@ -86,13 +89,17 @@ pub(super) struct Tangent<'a> {
     pub(super) works: DMatrix<f64>,
     pub(super) time: f64,
     size: f64,
+    /// The longest step of the run lately [s]: about a jump they are short.
+    pub(super) run_step: f64,
     tolerance: f64,
     /// rtol of the run.
     rtol: f64,
     follows_works: bool,
     /// f at the node at hand.
     base: BaseRates,
-    history: StepHistory,
+    pub(super) history: StepHistory,
+    /// Where formulas go over to others.
+    pub(super) switching: Switching,
     /// The state at a node, and its scales.
     pub(super) at: State,
     pub(super) scales: Vec<f64>,
@@ -158,7 +165,7 @@ impl<'a> Tangent<'a> {
             state[(row, columns)] = sign * scales[row];
         }
         let works = DMatrix::zeros(model.works().len(), columns + 1);
-        Ok(Self {
+        let mut this = Self {
             model,
             system,
             rule: CollocationRule::new(),
@@ -167,16 +174,20 @@ impl<'a> Tangent<'a> {
             works,
             time: start.time,
             size: f64::INFINITY,
+            run_step: 0.0,
             tolerance: SHARE * plan.tolerance.rtol,
             rtol: plan.tolerance.rtol,
             follows_works: false,
             base: BaseRates::default(),
             history: StepHistory::default(),
+            switching: Switching::default(),
             at: start.clone(),
             scales,
             growth: 1.0,
             tried: [0; 2],
-        })
+        };
+        this.begin_switching().map_err(outside)?;
+        Ok(this)
     }
 
     /// Follows the works as well from now on.
@@ -247,6 +258,12 @@ impl<'a> Tangent<'a> {
         if self.is_followed() {
             self.history.record(run);
             self.tried[1] += 1;
+            if let Some((from, to)) = run.last_step() {
+                self.run_step = (FORGOTTEN * self.run_step).max(to - from);
+                if let Err(left) = self.watch(from, to) {
+                    self.lose_all(reason(self.model, to, &left));
+                }
+            }
         }
     }
 
@@ -280,12 +297,18 @@ impl<'a> Tangent<'a> {
         self.columns.iter().any(Result::is_ok)
     }
 
-    /// Tries a step towards a time; where it comes to none, all is lost.
+    /// Tries a step towards a time, to where a formula goes over to another at most; where it comes to none, all is
+    /// lost.
     fn step_to(&mut self, wanted: f64) {
         let end = self.history.limit(self.time, wanted, SPAN);
+        let switch = self.switch_by(end).map(|state| state.time);
+        let end = switch.unwrap_or(end);
         let size = end - self.time;
-        let has_no_digits = self.size <= LEAST_DIGITS * self.time.abs();
-        if has_no_digits || size <= SMALLEST * self.history.step_at(self.time) {
+        let least = SMALLEST * self.history.step_at(self.time);
+        if switch.is_some() && size <= least.max(LEAST_DIGITS * end.abs()) {
+            return self.switch_over();
+        }
+        if size <= least || self.size <= LEAST_DIGITS * self.time.abs() {
             return self.lose_all("it changes faster than can be followed".into());
         }
         let [tried, run] = self.tried;
@@ -308,7 +331,7 @@ impl<'a> Tangent<'a> {
         let Some(step) = self.rule.step(&nodes.sets, &self.state, size, &nodes.stages) else {
             return Ok(CHANGE.0 * size);
         };
-        let powers = if self.follows_works { self.powers(&step, &nodes)? } else { Vec::new() };
+        let powers = if self.follows_works { self.powers(&step, &nodes, size)? } else { Vec::new() };
         let error = self.error(&step, &powers, size) / self.tolerance;
         if error > 1.0 || error.is_nan() {
             let factor = if error.is_finite() { 0.9 * libm::pow(error, -0.1) } else { 0.0 };
@@ -328,14 +351,16 @@ impl<'a> Tangent<'a> {
         let model = self.model;
         let mut nodes = Nodes::default();
         for (node, part) in NODES.iter().enumerate() {
-            let later = part * (to - from);
-            self.at.time = if node + 1 == STAGES { to } else { from + later };
-            self.at.low.resize(self.at.bodies.len(), 0.0);
-            self.history.at(from, later, &mut self.at.bodies, &mut self.at.low);
-            self.project();
+            self.look_at(from, part * (to - from));
+            // A step may end at a kink or a switch, behind which the equations are others.
+            let mut inside = self.at.time - INSIDE * (to - from);
+            if node + 1 == STAGES {
+                match self.switch_by(to).cloned() {
+                    Some(before) => (self.at, inside) = (before, to),
+                    None => self.at.time = to,
+                }
+            }
             let mut slopes = BlockMatrix::new(model.blocks());
-            // A step may end at a kink, behind which the model is another one.
-            let inside = self.at.time - INSIDE * (to - from);
             let y = Extended { high: &self.at.bodies, low: &self.at.low };
             self.system.extended_jacobian(inside, y, &mut slopes)?;
             let (forcing, forcing_works) = self.forcing();
@@ -349,7 +374,7 @@ impl<'a> Tangent<'a> {
     }
 
     /// Puts the state at hand on its manifold, and finds its scales.
-    fn project(&mut self) {
+    pub(super) fn project(&mut self) {
         let State { time, bodies, low, works } = &mut self.at;
         self.system.extended_project(*time, ExtendedMut { high: bodies, low }, works);
         fill_scales(&mut self.system, &self.at, &mut self.scales);
@@ -362,11 +387,16 @@ impl<'a> Tangent<'a> {
         let mut forcing = DMatrix::zeros(n, self.state.ncols());
         let mut forcing_works = DMatrix::zeros(works, self.state.ncols());
         self.base.leave();
-        for (column, followed) in self.columns.iter_mut().enumerate() {
+        let beside: Vec<_> = (0..self.columns.len()).map(|column| self.beside_switches(column)).collect();
+        for ((column, followed), beside) in self.columns.iter_mut().enumerate().zip(&beside) {
             let Ok(Followed::Number(number)) = followed else { continue };
             let (varied, kinks) = &mut **number;
-            for (time, weight) in kinks.beside(self.at.time).into_iter().filter(|(_, weight)| *weight != 0.0) {
-                match varied.rates(model, &mut self.base, (time, self.at.numbers(), &self.scales)) {
+            let places = match beside {
+                Some(places) => places.each_ref().map(|(state, weight)| (state, state.time, *weight)),
+                None => kinks.beside(self.at.time).map(|(time, weight)| (&self.at, time, weight)),
+            };
+            for (state, time, weight) in places.into_iter().filter(|(.., weight)| *weight != 0.0) {
+                match varied.rates(model, &mut self.base, (time, state.numbers(), &self.scales)) {
                     Ok(found) => {
                         let mut own = forcing.column_mut(column);
                         own.iter_mut().zip(&found[..n]).for_each(|(sum, value)| *sum += weight * value);

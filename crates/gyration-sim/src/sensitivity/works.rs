@@ -10,31 +10,58 @@ use super::kinks::ends_at_kink;
 use super::probe::{along, reason};
 use super::tangent::{Followed, Nodes, Tangent};
 use gyration::Inadmissible;
+use gyration::state::State;
 use gyration_ode::{Integrator, System as _};
 use nalgebra::DMatrix;
 
 /// How far from a kink the rates on its sides are taken, as a part of its time: some roundings of it.
 const BESIDE: f64 = 16.0 * f64::EPSILON;
 
+/// How far before a switch powers are differentiated, as a part of a step: the square of it is their error.
+const BEFORE: f64 = 1e-5;
+
 impl Tangent<'_> {
-    /// W′ at the nodes of a step, a column for each number.
-    pub(super) fn powers(&mut self, step: &CollocationStep, nodes: &Nodes) -> Result<Vec<DMatrix<f64>>, Inadmissible> {
+    /// W′ at the nodes of a step of a size, a column for each number.
+    pub(super) fn powers(
+        &mut self,
+        step: &CollocationStep,
+        nodes: &Nodes,
+        size: f64,
+    ) -> Result<Vec<DMatrix<f64>>, Inadmissible> {
         let mut all = nodes.powers.clone();
-        for ((powers, state), values) in all.iter_mut().zip(&nodes.states).zip(&step.values) {
+        for (node, (powers, state)) in all.iter_mut().zip(&nodes.states).enumerate() {
+            let switches = self.switch_by(state.time).is_some();
             for column in 0..self.columns.len() {
                 if self.columns[column].is_err() {
                     continue;
                 }
-                let direction: Vec<f64> = values.column(column).iter().copied().collect();
-                let through = along(&direction, &self.scales, |part| {
-                    let (mut rates, mut powers) = (vec![0.0; state.bodies.len()], vec![0.0; state.works.len()]);
-                    let bodies: Vec<f64> = state.bodies.iter().zip(&direction).map(|(y, s)| y + part * s).collect();
-                    self.system.rates(state.time, &bodies, &mut rates, &mut powers).map(|()| powers)
-                })?;
-                through.iter().enumerate().for_each(|(row, value)| powers[(row, column)] += value);
+                let direction: Vec<f64> = step.values[node].column(column).iter().copied().collect();
+                // Neighbours of a state at a switch are beyond it: a line leads there from two that are not.
+                let places = if switches { [(1.0, 2.0), (2.0, -1.0)].as_slice() } else { &[(0.0, 1.0)] };
+                for &(back, weight) in places {
+                    let earlier = back * BEFORE * size;
+                    let (mut at, mut moved) = (state.clone(), direction.clone());
+                    if back > 0.0 {
+                        self.look_at(state.time - earlier, 0.0);
+                        at.clone_from(&self.at);
+                        let rates = step.rates[node].column(column);
+                        moved.iter_mut().zip(rates.iter()).for_each(|(value, rate)| *value -= earlier * rate);
+                    }
+                    let through = self.powers_along(&at, &moved)?;
+                    through.iter().enumerate().for_each(|(row, value)| powers[(row, column)] += weight * value);
+                }
             }
         }
         Ok(all)
+    }
+
+    /// ∂g/∂y along a direction of a state.
+    fn powers_along(&mut self, state: &State, direction: &[f64]) -> Result<Vec<f64>, Inadmissible> {
+        along(direction, &self.scales, |part| {
+            let (mut rates, mut powers) = (vec![0.0; state.bodies.len()], vec![0.0; state.works.len()]);
+            let bodies: Vec<f64> = state.bodies.iter().zip(direction).map(|(y, s)| y + part * s).collect();
+            self.system.rates(state.time, &bodies, &mut rates, &mut powers).map(|()| powers)
+        })
     }
 
     /// Comes to the end of a step of the run that ends at a kink, and over it.

@@ -379,4 +379,16 @@ impl SceneVariation {
             Ok(())
         })
     }
+
+    /// ∂h/∂p of the switching functions of a model's formulas; none where they do not know the number.
+    pub fn switching(&mut self, time: f64, state: Numbers) -> Result<Option<Vec<f64>>, NoDerivative> {
+        if self.starts_only || self.known.is_some() {
+            return Ok(None);
+        }
+        let found = self.differentiate(&[], |scene, workspace, out| {
+            out.extend(workspace.switching(&scene.built().model, time, state)?);
+            Ok(())
+        })?;
+        Ok(Some(found).filter(|found| found.iter().any(|slope| *slope != 0.0)))
+    }
 }

@@ -11,3 +11,4 @@ mod meaningless;
 mod random;
 mod samples;
 pub mod support;
+mod switching;
