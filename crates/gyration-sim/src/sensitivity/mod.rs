@@ -20,6 +20,7 @@ mod kinks;
 mod probe;
 mod quantity;
 mod stage_equations;
+mod switches;
 mod switching;
 mod tangent;
 mod works;

@@ -11,11 +11,11 @@
 use super::Meaningless;
 use super::kinks::parabola;
 use super::probe::{along, fill_scales, meaningless, reason};
+use super::switches::{Switch, Switching};
 use super::tangent::{Followed, Tangent};
 use gyration::Inadmissible;
 use gyration::state::State;
 use gyration_ode::{Extended, System as _};
-use std::collections::VecDeque;
 
 /// A switching function that is no larger than this part of what it has been is rounding, and keeps its sign.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -39,36 +39,6 @@ const FIRST_BACK: f64 = 1e-12;
 const BACK: i32 = 24;
 /// How often a bracket of t_s is halved, at most.
 const HALVINGS: usize = 200;
-
-/// The switching functions of a run, as far as it has been followed.
-#[derive(Debug, Default)]
-pub(super) struct Switching {
-    /// When it started [s].
-    start: f64,
-    /// The sign of each where the run has come to; zero of one that has had none so far.
-    sides: Vec<f64>,
-    /// How large each has been.
-    sizes: Vec<f64>,
-    /// Where formulas change before S.
-    ahead: VecDeque<Switch>,
-    /// The last one that S has gone through.
-    passed: Option<Switch>,
-}
-
-/// Where formulas change.
-#[derive(Debug, Clone)]
-struct Switch {
-    /// The last state before, and the first behind.
-    states: [State; 2],
-    /// ∂h/∂p for each column, of the functions that change their signs there; none where there is none.
-    by_number: Vec<Option<Vec<f64>>>,
-    /// How far from it each column looks at ∂f/∂p [s].
-    margins: Vec<f64>,
-    /// Which functions change their signs.
-    which: Vec<usize>,
-    /// How long the steps of the run are there [s].
-    length: f64,
-}
 
 /// f and g in a state.
 struct Rates {
@@ -95,12 +65,6 @@ impl Rates {
         let do_bodies = jumps(&jump.bodies, &self.bodies, &behind.bodies, &earlier.bodies);
         let do_powers = jumps(&jump.powers, &self.powers, &behind.powers, &earlier.powers);
         (do_bodies || do_powers).then_some(jump)
-    }
-}
-
-impl Switch {
-    fn times(&self) -> [f64; 2] {
-        self.states.each_ref().map(|state| state.time)
     }
 }
 

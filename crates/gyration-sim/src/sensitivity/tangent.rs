@@ -15,7 +15,7 @@ use super::kinks::Kinks;
 use super::probe::{SCALES, fill_scales, meaningless, reason};
 use super::quantity::Quantities;
 use super::stage_equations::STAGES;
-use super::switching::Switching;
+use super::switches::Switching;
 use super::{GROWN, Meaningless, SensitivityCounts};
 use crate::adapter::ModelSystem;
 use crate::outcome::Stop;
