@@ -21,12 +21,56 @@ const MOST_PROBES: i32 = 8;
 /// Differences agree whose error is no larger a part of them.
 const AGREE: f64 = 1e-8;
 
-/// The derivative of something along a direction of the state, by differences of fourth order; `evaluate` gives it at a
-/// multiple of the direction.
+/// Four places of a line, in steps, and what weighs them in a difference over one step and in one over two.
+struct Stencil {
+    places: [f64; 4],
+    near: [f64; 4],
+    far: [f64; 4],
+    /// The power of their disagreement that the error of what both tell goes with.
+    order: f64,
+}
+
+/// About the middle: of second order, and of fourth together.
+const CENTRAL: Stencil =
+    Stencil { places: [-2.0, -1.0, 1.0, 2.0], near: [0.0, -0.5, 0.5, 0.0], far: [-0.25, 0.0, 0.0, 0.25], order: 2.0 };
+/// On one side: of second order, and of third together.
+const AHEAD: Stencil =
+    Stencil { places: [0.0, 1.0, 2.0, 4.0], near: [-1.5, 2.0, -0.5, 0.0], far: [-0.75, 0.0, 1.0, -0.25], order: 1.5 };
+
+/// A difference of one number: its slope, the error of that, and whether it needs no shorter step.
+struct Slope {
+    value: f64,
+    error: f64,
+    agrees: bool,
+}
+
+impl Stencil {
+    /// The slopes over a step of either sign of what is evaluated at multiples of a direction.
+    fn slopes<E>(&self, step: f64, evaluate: &mut impl FnMut(f64) -> Result<Vec<f64>, E>) -> Result<Vec<Slope>, E> {
+        let [a, b, c, d] = self.places.map(|place| place * step);
+        let points = [evaluate(a)?, evaluate(b)?, evaluate(c)?, evaluate(d)?];
+        let slope = |i: usize| {
+            let values = points.each_ref().map(|point| point[i]);
+            let over = |weights: &[f64; 4]| weights.iter().zip(values).map(|(w, value)| w * value).sum::<f64>() / step;
+            let (near, far) = (over(&self.near), over(&self.far));
+            let value = (4.0 * near - far) / 3.0;
+            let most = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            let (bend, rounding) = ((near - far).abs(), f64::EPSILON * most / step.abs());
+            let part = libm::pow(bend / value.abs(), self.order - 1.0);
+            let error = bend.min(bend * part).max(0.0) + rounding;
+            // What is no number is none over any step.
+            Slope { value, error, agrees: bend.is_nan() || bend <= 4.0 * rounding || error <= AGREE * value.abs() }
+        };
+        Ok((0..points[0].len()).map(slope).collect())
+    }
+}
+
+/// The derivative of something along a direction of the state, by differences; `evaluate` gives it at a multiple of the
+/// direction.
 ///
 /// Scales know gaps to contacts, and neither the way to a limit of a joint nor the width of an expression. So the step
-/// is reduced until differences over it and twice as far agree, or what is evaluated is known there at all: of each
-/// number that of the least error is taken, be it curvature or rounding.
+/// is reduced until differences over it and twice as far agree, or what is evaluated is known there at all, be it on
+/// one side: of each number that of the least error is taken, be it curvature or rounding.
 pub(super) fn along<E>(
     direction: &[f64],
     scales: &[f64],
@@ -36,46 +80,36 @@ pub(super) fn along<E>(
     if size == 0.0 {
         return Ok(vec![0.0; evaluate(0.0)?.len()]);
     }
-    let mut best: Vec<(f64, f64)> = Vec::new();
+    let mut best: Vec<Slope> = Vec::new();
     for probe in 0.. {
         let step = PROBE / size * FINER.powi(-probe);
         let is_last = probe + 1 == MOST_PROBES;
-        let points = [-2.0, -1.0, 1.0, 2.0].map(|part| evaluate(part * step));
-        let [a, b, c, d] = match points {
-            [Ok(a), Ok(b), Ok(c), Ok(d)] => [a, b, c, d],
-            [Err(fault), ..] | [_, Err(fault), ..] | [_, _, Err(fault), _] | [_, _, _, Err(fault)] => {
-                // A finer one that is not known adds nothing to what is.
-                match (best.is_empty(), is_last) {
-                    (true, false) => continue,
-                    (true, true) => return Err(fault),
-                    (false, _) => break,
-                }
-            }
+        let found = CENTRAL
+            .slopes(step, &mut evaluate)
+            .or_else(|_| AHEAD.slopes(step, &mut evaluate))
+            .or_else(|_| AHEAD.slopes(-step, &mut evaluate));
+        let found = match found {
+            Ok(found) => found,
+            // A finer one that is not known adds nothing to what is.
+            Err(_) if !best.is_empty() => break,
+            Err(fault) if is_last => return Err(fault),
+            Err(_) => continue,
         };
-        let found = (0..a.len()).map(|i| {
-            let (near, far) = ((c[i] - b[i]) / (2.0 * step), (d[i] - a[i]) / (4.0 * step));
-            let slope = (4.0 * near - far) / 3.0;
-            let (bend, rounding) = ((near - far).abs(), f64::EPSILON * a[i].abs().max(d[i].abs()) / step);
-            // The error of fourth order is that of second squared.
-            let error = bend.min(bend * bend / slope.abs()).max(0.0) + rounding;
-            // What is no number is none over any step.
-            (slope, error, bend.is_nan() || bend <= 4.0 * rounding || error <= AGREE * slope.abs())
-        });
-        let found: Vec<(f64, f64, bool)> = found.collect();
-        let do_agree = found.iter().all(|(_, _, agrees)| *agrees);
+        let do_agree = found.iter().all(|slope| slope.agrees);
         if best.is_empty() {
-            best = found.iter().map(|(slope, error, _)| (*slope, *error)).collect();
-        }
-        for (best, (slope, error, _)) in best.iter_mut().zip(found) {
-            if error < best.1 {
-                *best = (slope, error);
+            best = found;
+        } else {
+            for (best, found) in best.iter_mut().zip(found) {
+                if found.error < best.error {
+                    *best = found;
+                }
             }
         }
         if do_agree || is_last {
             break;
         }
     }
-    Ok(best.into_iter().map(|(slope, _)| slope).collect())
+    Ok(best.into_iter().map(|slope| slope.value).collect())
 }
 
 /// The scales of state and works.
@@ -127,6 +161,10 @@ mod tests {
         let found = along(&[1.0], &[1.0], of).unwrap();
         let exact = 1.5 * libm::pow(left, -2.5);
         assert!((found[0] / exact - 1.0).abs() < 1e-8, "{}", found[0] / exact);
+        // At the limit itself one side is all there is.
+        let of = |part: f64| if part >= 0.0 { Ok(vec![libm::exp(-3.0 * part)]) } else { Err("beyond") };
+        let found = along(&[1.0], &[1.0], of).unwrap();
+        assert!((found[0] + 3.0).abs() < 1e-8, "{}", found[0]);
         assert_eq!(along(&[1.0], &[1.0], |_| Err::<Vec<f64>, _>("nowhere")), Err("nowhere"));
     }
 }

@@ -171,6 +171,34 @@ impl Tangent<'_> {
         self.system.switching(self.at.time, Extended { high: &self.at.bodies, low: &self.at.low })
     }
 
+    /// On which sides of the switching functions a state is, the last one before a switch among them; zero where a
+    /// function is rounding.
+    pub(super) fn sides(&mut self, state: &State) -> Result<Vec<f64>, Inadmissible> {
+        let values = self.switching_of(state.time, &state.bodies)?;
+        let Switching { sizes, ahead, .. } = &self.switching;
+        let last = ahead.front().filter(|switch| switch.states[0].time <= state.time);
+        let changes = |place: usize| last.is_some_and(|switch| switch.which.contains(&place));
+        let side = |(place, value): (usize, &f64)| {
+            if value.abs() > ROUNDING * sizes[place] || changes(place) { sign(*value) } else { 0.0 }
+        };
+        Ok(values.iter().enumerate().map(side).collect())
+    }
+
+    /// Whether some numbers of the bodies are on another side than these of a switching function.
+    pub(super) fn are_beyond(&mut self, sides: &[f64], time: f64, bodies: &[f64]) -> Result<bool, Inadmissible> {
+        let values = self.switching_of(time, bodies)?;
+        Ok(sides.iter().zip(values).any(|(side, value)| side * value < 0.0))
+    }
+
+    /// The switching functions of some numbers of the bodies.
+    fn switching_of(&mut self, time: f64, bodies: &[f64]) -> Result<Vec<f64>, Inadmissible> {
+        if self.switching.sides.is_empty() {
+            return Ok(Vec::new());
+        }
+        let low = vec![0.0; bodies.len()];
+        self.system.switching(time, Extended { high: bodies, low: &low })
+    }
+
     /// Those that have changed their signs so long after a time, by more than rounding.
     fn changed(&mut self, from: f64, later: f64) -> Result<Vec<usize>, Inadmissible> {
         let values = self.switching_at(from, later)?;

@@ -331,7 +331,9 @@ impl<'a> Tangent<'a> {
         let Some(step) = self.rule.step(&nodes.sets, &self.state, size, &nodes.stages) else {
             return Ok(CHANGE.0 * size);
         };
-        let powers = if self.follows_works { self.powers(&step, &nodes, size)? } else { Vec::new() };
+        let Some(powers) = (if self.follows_works { self.powers(&step, &nodes)? } else { Some(Vec::new()) }) else {
+            return Ok(CHANGE.0 * size);
+        };
         let error = self.error(&step, &powers, size) / self.tolerance;
         if error > 1.0 || error.is_nan() {
             let factor = if error.is_finite() { 0.9 * libm::pow(error, -0.1) } else { 0.0 };

@@ -3,7 +3,8 @@
 //!
 //!   W′ = ∂g/∂y S + ∂g/∂p,      S⁺ = S⁻ + (f⁻ − f⁺) dt/dp,   W⁺ = W⁻ + (g⁻ − g⁺) dt/dp
 //!
-//! Powers g have no exact derivative at hand: they are differentiated along S by differences.
+//! Powers g have no exact derivative at hand: they are differentiated along S by differences, between states that have
+//! the same formulas.
 
 use super::collocation::CollocationStep;
 use super::kinks::ends_at_kink;
@@ -17,51 +18,52 @@ use nalgebra::DMatrix;
 /// How far from a kink the rates on its sides are taken, as a part of its time: some roundings of it.
 const BESIDE: f64 = 16.0 * f64::EPSILON;
 
-/// How far before a switch powers are differentiated, as a part of a step: the square of it is their error.
-const BEFORE: f64 = 1e-5;
-
 impl Tangent<'_> {
-    /// W′ at the nodes of a step of a size, a column for each number.
+    /// W′ at the nodes of a step, a column for each number; none where a formula goes over to another so near to a node
+    /// that no difference can be taken.
     pub(super) fn powers(
         &mut self,
         step: &CollocationStep,
         nodes: &Nodes,
-        size: f64,
-    ) -> Result<Vec<DMatrix<f64>>, Inadmissible> {
+    ) -> Result<Option<Vec<DMatrix<f64>>>, Inadmissible> {
         let mut all = nodes.powers.clone();
         for (node, (powers, state)) in all.iter_mut().zip(&nodes.states).enumerate() {
-            let switches = self.switch_by(state.time).is_some();
+            let sides = self.sides(state)?;
             for column in 0..self.columns.len() {
                 if self.columns[column].is_err() {
                     continue;
                 }
                 let direction: Vec<f64> = step.values[node].column(column).iter().copied().collect();
-                // Neighbours of a state at a switch are beyond it: a line leads there from two that are not.
-                let places = if switches { [(1.0, 2.0), (2.0, -1.0)].as_slice() } else { &[(0.0, 1.0)] };
-                for &(back, weight) in places {
-                    let earlier = back * BEFORE * size;
-                    let (mut at, mut moved) = (state.clone(), direction.clone());
-                    if back > 0.0 {
-                        self.look_at(state.time - earlier, 0.0);
-                        at.clone_from(&self.at);
-                        let rates = step.rates[node].column(column);
-                        moved.iter_mut().zip(rates.iter()).for_each(|(value, rate)| *value -= earlier * rate);
-                    }
-                    let through = self.powers_along(&at, &moved)?;
-                    through.iter().enumerate().for_each(|(row, value)| powers[(row, column)] += weight * value);
-                }
+                let Some(through) = self.powers_along(state, &sides, &direction)? else { return Ok(None) };
+                through.iter().enumerate().for_each(|(row, value)| powers[(row, column)] += value);
             }
         }
-        Ok(all)
+        Ok(Some(all))
     }
 
-    /// ∂g/∂y along a direction of a state.
-    fn powers_along(&mut self, state: &State, direction: &[f64]) -> Result<Vec<f64>, Inadmissible> {
-        along(direction, &self.scales, |part| {
+    /// ∂g/∂y along a direction of a state, by neighbours on its sides of all switching functions; none if none is found
+    /// there.
+    fn powers_along(
+        &mut self,
+        state: &State,
+        sides: &[f64],
+        direction: &[f64],
+    ) -> Result<Option<Vec<f64>>, Inadmissible> {
+        let scales = self.scales.clone();
+        let found = along(direction, &scales, |part| {
             let (mut rates, mut powers) = (vec![0.0; state.bodies.len()], vec![0.0; state.works.len()]);
             let bodies: Vec<f64> = state.bodies.iter().zip(direction).map(|(y, s)| y + part * s).collect();
-            self.system.rates(state.time, &bodies, &mut rates, &mut powers).map(|()| powers)
-        })
+            if self.are_beyond(sides, state.time, &bodies).map_err(Some)? {
+                return Err(None);
+            }
+            self.system.rates(state.time, &bodies, &mut rates, &mut powers).map_err(Some)?;
+            Ok(powers)
+        });
+        match found {
+            Ok(powers) => Ok(Some(powers)),
+            Err(None) => Ok(None),
+            Err(Some(left)) => Err(left),
+        }
     }
 
     /// Comes to the end of a step of the run that ends at a kink, and over it.

@@ -73,12 +73,13 @@ fn a_force_whose_slope_jumps_keeps_its_digits() {
     compare(&found, expected, 5e-8);
 }
 
-/// To and fro in V = k|x|, three times through the middle, with works and a body that turns: against runs. Symptom: of
-/// passages that the run made in short steps none was seen.
+/// To and fro in V = k|x|, with works and a body that turns: against runs. Symptoms: of passages that the run made in
+/// short steps none was seen; powers were differentiated across a jump, so that works had five digits and after 4 s
+/// nothing could be followed.
 #[test]
 fn many_passages_of_a_spinning_box_agree_with_runs() {
     let text = r#"
-        time = { end = 4, sample = 1 }
+        time = { end = 7, sample = 1 }
         world = { gravity = [0, 0, 0] }
         constants = { k = 2, w = 0.002 }
         [[body]]
@@ -92,8 +93,8 @@ fn many_passages_of_a_spinning_box_agree_with_runs() {
     "#;
     let keys = ["body.box.position.0", "body.box.velocity.1", "constants.k", "constants.w", "body.box.mass"];
     let quantities = ["box.x", "box.vy", "box.P_xy", "energy.kinetic", "work.load"];
-    let worst = disagreement(text, &strings(&TIGHT), &keys, &quantities, 1e-4);
-    // Of works; places and velocities agree as far as runs of such forces do.
+    let worst = disagreement(text, &strings(&TIGHT), &keys, &quantities, 1e-3);
+    // Of a velocity by w, as far as runs of such forces agree; the others 1e-7.
     assert!(worst < 5e-5, "{worst:e}");
 }
 
