@@ -368,13 +368,18 @@ impl System for ModelSystem {
             energy += 0.5 * body.solid.mass.mass * speed * speed;
             let length = atol * body.size + rtol * gap.min(body.size);
             // The rounding of the places from which the gap is computed is all that can be had, unless their numbers
-            // have twice the digits.
+            // have twice the digits: then that of the body's own lengths, or of the gap.
             let lengths = motion.placement.position.norm() + body.size;
             let keeps = || body.solid.surface.as_ref().is_some_and(|surface| body.keeps_digits(surface));
             let near = NEAR * body.size;
             // A gap of a pair has the digits of one number.
-            let extended = gap < near && apart > near && keeps();
-            let rounding = 4.0 * f64::EPSILON * if extended { gap } else { lengths };
+            let is_extended = gap < near && apart > near;
+            let known = match is_extended {
+                true if keeps() => gap,
+                true if body.keeps_place() => body.size,
+                _ => lengths,
+            };
+            let rounding = 4.0 * f64::EPSILON * known;
             // Springs make velocities of the rounding of places.
             let shaken = 4.0 * f64::EPSILON * lengths * self.frequencies[index];
             // So do pairs, whose forces are off by some ν ε size/gap: velocities by that part of themselves.

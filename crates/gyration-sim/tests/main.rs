@@ -12,6 +12,7 @@ mod deforming;
 mod dissipation;
 mod equations;
 mod exchanges;
+mod far_away;
 mod fields;
 mod flattened;
 mod impulses;

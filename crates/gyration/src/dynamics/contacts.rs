@@ -45,11 +45,13 @@ fn gap_field(at: &MotionAt, surface: &Surface, support: &Support) -> GapField {
     extended_gap_field(at, surface, support).unwrap_or(field)
 }
 
-/// g₀ = (p₀ − o(t))·n and m = Pᵀn to twice the digits, of a body that keeps them; a pinned one has p₀ = a − P r.
+/// g₀ = (p₀ − o(t))·n and m = Pᵀn to twice the digits, of a body that keeps them, and g₀ alone of one that keeps its
+/// place; a pinned one has p₀ = a − P r.
 #[cold]
 fn extended_gap_field(at: &MotionAt, surface: &Surface, support: &Support) -> Option<GapField> {
     let MotionAt { model, body, index, time, numbers, .. } = *at;
-    if !body.keeps_digits(surface) {
+    let keeps_digits = body.keeps_digits(surface);
+    if !keeps_digits && !body.keeps_place() {
         return None;
     }
     let slots = model.slots(index);
@@ -71,7 +73,10 @@ fn extended_gap_field(at: &MotionAt, surface: &Surface, support: &Support) -> Op
             anchor - Extended::dot(&direction, &pin.point)
         }
     };
-    Some(GapField::extended(height, &direction))
+    Some(match keeps_digits {
+        true => GapField::extended(height, &direction),
+        false => GapField::new(height.value(), at.motion.placement.gradient.tr_mul(normal)),
+    })
 }
 
 /// How the support of a contact moves.
