@@ -3,8 +3,8 @@
 //!   R = ½ c |w|²,   w = Δ̇ − ω̄ × Δ,   ω̄ the mean spin of the bodies that turn
 //!
 //! needs no direction: where the points lie together w = Δ̇. Between two mass points, which have no spin, it is the
-//! part of Δ̇ along Δ. Of a 6×6 matrix R = ½ żᵀ Ĉ ż. Forces are −∂R/∂(velocities); the spin of a body that deforms is
-//! that of the skew part of Ṗ P⁻¹.
+//! part of Δ̇ along Δ where they lie apart. Of a 6×6 matrix R = ½ żᵀ Ĉ ż. Forces are −∂R/∂(velocities); the spin of a
+//! body that deforms is that of the skew part of Ṗ P⁻¹.
 
 use super::gram::{Span, SpanSlopes};
 use super::stiffness::{BondAxes, Stiffness6};
@@ -124,10 +124,10 @@ impl Resisted {
     }
 }
 
-/// The part of a vector along another; none where that has no direction.
+/// The part of a vector along another; all of it where that has no direction.
 fn along(direction: &Vec3, vector: &Vec3) -> Vec3 {
     let square = direction.norm_squared();
-    if square > 0.0 { (direction.dot(vector) / square) * direction } else { Vec3::zeros() }
+    if square > 0.0 { (direction.dot(vector) / square) * direction } else { *vector }
 }
 
 /// The changes of the loads on both bodies with one of the twelve places of a body, and with its rate.
