@@ -6,8 +6,9 @@
 //! Newton's step. Where K is smaller than r over the longest step allowed, the largest such quotient stands in its
 //! place: a body far above its support comes down in growing steps, and directions without force that are free
 //! (sliding, turning about the vertical) or unstable are left alone. A step is halved until gaps and det P keep a part
-//! of their values, no body has passed through another (`barriers`), and the work over it by the trapezoidal rule is
-//! not negative. Steps that come to nothing although forces are left have met an edge of the model, not a rest.
+//! of their values, no body has passed through another (`barriers`), the work over it by the trapezoidal rule is not
+//! negative, and where it is no step of Newton's the forces along it lead over no hill. Steps that come to nothing
+//! although forces are left have met an edge of the model, not a rest.
 
 use super::barriers::{Barriers, LEAST_KEPT};
 use super::canonical::{self, Basis};
@@ -195,6 +196,22 @@ enum Progress {
     IsBlocked,
 }
 
+/// Where a step is looked at for hills, as parts of it.
+const INSIDE: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// Whether forces along a way, once they are against it, stay so: what they lead over is no hill.
+fn is_one_valley(forces: impl Iterator<Item = Option<f64>>) -> bool {
+    let mut was_against = false;
+    for force in forces {
+        let Some(force) = force else { return false };
+        if was_against && force > 0.0 {
+            return false;
+        }
+        was_against |= force < 0.0;
+    }
+    true
+}
+
 struct Search {
     numbers: Vec<f64>,
     /// The longest way of each centre in a step [m].
@@ -220,8 +237,10 @@ impl Search {
         }
         self.last = size;
         let mut grow = |factor: f64| self.reach.iter_mut().for_each(|reach| *reach *= factor);
-        match Self::take(frozen, (&mut self.numbers, self.last), &balance, &way.along) {
-            Some(part) => grow(if part == 1.0 { 2.0 } else { 0.5 }),
+        match Self::take(frozen, (&mut self.numbers, self.last), &balance, &way) {
+            Some(1.0) if way.is_cut => grow(2.0),
+            Some(1.0) => {}
+            Some(_) => grow(0.5),
             None if size < SMALL && way.is_cut => return Ok(Progress::IsBlocked),
             // No part of it is admissible or of use: at rounding.
             None if size < SMALL => return Ok(Progress::Rests),
@@ -270,9 +289,18 @@ impl Search {
         frozen: &mut FrozenSystem,
         (numbers, size): (&mut Vec<f64>, f64),
         balance: &Balance,
-        way: &DVector<f64>,
+        way: &Way,
     ) -> Option<f64> {
         let Balance { coordinates, force, gaps, barriers, .. } = balance;
+        let Way { along: way, is_cut } = way;
+        let start = numbers.clone();
+        // The forces along the way after a part of it; none outside the model.
+        let inside = |frozen: &mut FrozenSystem, part: f64| {
+            let mut there = start.clone();
+            coordinates.advance_places(&mut there, &(part * way));
+            frozen.project(&mut there);
+            frozen.rates(&there).ok().map(|rates| coordinates.force(&rates).dot(way))
+        };
         let volumes = |frozen: &FrozenSystem, numbers: &[f64]| -> Vec<f64> {
             (0..frozen.count()).map(|body| frozen.motion(numbers, body).placement.gradient.determinant()).collect()
         };
@@ -288,11 +316,15 @@ impl Search {
                 new.to_supports.iter().zip(&old.to_supports).all(|(new, old)| *new > LEAST_KEPT * old)
             };
             let keeps_gaps = new_gaps.iter().zip(gaps).all(keeps);
-            let kept = is_held && keeps_volume && keeps_gaps && barriers.hold(frozen, &ahead);
-            if kept && let Ok(rates) = frozen.rates(&ahead) {
+            let is_kept = is_held && keeps_volume && keeps_gaps && barriers.hold(frozen, &ahead);
+            if is_kept && let Ok(rates) = frozen.rates(&ahead) {
                 let (before, after) = (force.dot(way), coordinates.force(&rates).dot(way));
                 // Forces at rest are rounding; their work tells nothing.
-                if before + after >= 0.0 || size < SMALL {
+                let mut is_one_slope = || {
+                    let middle = INSIDE.map(|inner| inside(frozen, inner * part));
+                    is_one_valley(middle.into_iter().chain([Some(after)]))
+                };
+                if size < SMALL || (before + after >= 0.0 && (!is_cut || is_one_slope())) {
                     *numbers = ahead;
                     return Some(part);
                 }

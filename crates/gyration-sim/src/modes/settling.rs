@@ -7,10 +7,12 @@ use gyration::Inadmissible;
 use gyration_threads::Interruption;
 use nalgebra::{DMatrix, DVector};
 
-/// Newton's steps to a state in which the contraction stands still, at most.
-const MOST: usize = 60;
+/// Steps to a state in which the contraction stands still, at most.
+const MOST: usize = 300;
 /// The most that a step may strain body or relaxed shape.
 const LARGEST_STRAIN: f64 = 0.2;
+/// By how much a relaxed shape would be strained at its speed over the time of a step.
+const PACE: f64 = 0.02;
 /// Halvings of a step that leaves the model, at most.
 const HALVINGS: usize = 40;
 /// Singular values below this part of the largest are those of directions that nothing feels.
@@ -24,12 +26,14 @@ const SMALL: f64 = 1e-8;
 /// A contraction stands still if it would take this strain to stop it.
 const STILL: f64 = 1e-8;
 
-/// The state next to some numbers in which bodies and contractions stand still.
+/// The state in which bodies and contractions stand still, to which both get from some numbers without inertia.
 ///
-///   K z − B γ = r,   −D z − H γ = V_G
+///   (K + C/τ) z − B γ = r,   γ/τ − (D + E/τ) z − H γ = V_G
 ///
-/// by Newton's method; directions that nothing feels are left alone. None where a contraction goes on, or nobody waits
-/// any longer.
+/// by implicit steps of a time τ, in which V_G strains as much as one step may; as V_G vanishes they become those of
+/// Newton's method. Of many states that stand still, as a shape has that flows without resistance, it so comes to the
+/// one that the way ends in; directions that nothing feels are left alone. None where a contraction goes on, or nobody
+/// waits any longer.
 pub(super) fn settled(frozen: &mut FrozenSystem, start: Vec<f64>) -> Result<Option<Vec<f64>>, Inadmissible> {
     let (mut numbers, mut last, mut largest) = (start, f64::INFINITY, 0.0);
     for _ in (0..MOST).take_while(|_| Interruption::due().is_none()) {
@@ -38,13 +42,16 @@ pub(super) fn settled(frozen: &mut FrozenSystem, start: Vec<f64>) -> Result<Opti
         let force = coordinates.force(&rates);
         let speeds = coordinates.contraction_velocities(frozen, &numbers, &rates);
         let velocity = coordinates.along(&speeds);
-        let (stiffness, first) = coordinates.first_order(&speeds, &frozen.slopes(&numbers)?);
+        let slopes = frozen.slopes(&numbers)?;
+        let (stiffness, first) = coordinates.first_order(&speeds, &slopes);
         let (size, own) = (force.len(), velocity.len());
         let mut system = DMatrix::zeros(size + own, size + own);
-        system.view_mut((0, 0), (size, size)).copy_from(&stiffness);
+        let rate = velocity.norm() / PACE;
+        system.view_mut((0, 0), (size, size)).copy_from(&(stiffness + rate * coordinates.resistance(&slopes)));
         system.view_mut((0, size), (size, own)).copy_from(&-first.forces);
-        system.view_mut((size, 0), (own, size)).copy_from(&-first.by_place);
+        system.view_mut((size, 0), (own, size)).copy_from(&-(&first.by_place + rate * &first.by_rate));
         system.view_mut((size, size), (own, own)).copy_from(&-&first.own);
+        (size..size + own).for_each(|k| system[(k, k)] += rate);
         let right = DVector::from_iterator(size + own, force.iter().chain(velocity.iter()).copied());
         let Some(step) = least_squares(system, right, size, &mut largest) else { return Ok(None) };
         let (mut z, mut strains) = (step.rows(0, size).into_owned(), step.rows(size, own).into_owned());
