@@ -3,8 +3,9 @@
 use crate::islands::parsed;
 use crate::runs::provenance;
 use gyration::dynamics::{Workspace, rates};
-use gyration::tensor::Vec3;
+use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::Scene;
+use gyration_sim::modes::bands::StrainedCell;
 use gyration_sim::survey::modes;
 use gyration_sim::{FirstSteps, Job, MemorySink, Outcome, Reason, Remarks, Simulation, Unwatched};
 
@@ -186,4 +187,42 @@ fn the_modes_of_a_ring_are_its_bands_where_its_cells_rest_too() {
     let found = modes(&parsed(&loose, &[]));
     let said = found.systems[0].no_rest_state_because.as_ref().unwrap();
     assert!(said.contains("cell"), "{said}");
+}
+
+/// Two blocks whose relaxed shapes flow, in a chain of natural length 0.385. Symptom: no force is left at any length,
+/// so that the cell walked at random: stretches of 0.17 and 0.12, or a refusal, by the order of the bodies.
+#[test]
+fn a_cell_whose_bodies_flow_rests_at_its_natural_length() {
+    let block = |name: &str, place: f64, drag: f64| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nshape = {{ box = {{ size = [0.1, 0.1, 0.1] }} }}\ndensity = 1000\n\
+             position = [{place:?}, 0, 0]\ncontractile = {{ material = {{ st_venant_kirchhoff = {{ lambda = 0, mu = 500 }} }}, \
+             contraction_viscosity = {drag:?} }}\n"
+        )
+    };
+    let spring = |ends: [&str; 2], cell: u32, law: [f64; 2]| {
+        let [stiffness, rest_length] = law;
+        format!(
+            "[[spring]]\nbetween = {ends:?}\ncell = [{cell}, 0, 0]\npoints = [[0.05, 0, 0], [-0.05, 0, 0]]\n\
+             stiffness = {stiffness:?}\nrest_length = {rest_length:?}\n"
+        )
+    };
+    let (a, b) = (block("a", 0.0, 25.0), block("b", 0.2, 60.0));
+    for bodies in [format!("{a}{b}"), format!("{b}{a}")] {
+        let text = format!(
+            "world = {{ gravity = [0, 0, 0] }}\ntime = {{ end = 1, sample = 1 }}\n[lattice]\ncell = [[0.4, 0, 0]]\n\
+             relax = [\"granules\", \"cell\"]\n{bodies}{}{}",
+            spring(["a", "b"], 0, [50.0, 0.09]),
+            spring(["b", "a"], 1, [40.0, 0.095])
+        );
+        let scene = parsed(&text, &[]);
+        let cell = scene.built().cell.as_ref().unwrap();
+        let rest = StrainedCell::new(&cell.model, &cell.state).at_rest(cell.load.unwrap());
+        let rest = rest.unwrap_or_else(|error| panic!("{error}"));
+        let (_, waves) = rest.at(&Mat3::identity()).unwrap_or_else(|error| panic!("{error}"));
+        assert!((rest.rest().m11 - 0.385 / 0.4).abs() < 1e-9, "{}", rest.rest());
+        for body in &waves.rest().bodies {
+            assert!((body.stretches - Vec3::repeat(1.0)).norm() < 1e-9, "{}", body.stretches);
+        }
+    }
 }

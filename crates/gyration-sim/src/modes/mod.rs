@@ -243,14 +243,23 @@ pub fn system_rest(model: &Model, start: &State, members: &[usize]) -> Result<Ve
     if members.iter().any(is_of_own_mass) {
         return Err(NoRest::NoConstantMass);
     }
-    let mut frozen = FrozenSystem::new(model, start, members, FrozenContraction::Held);
-    let held = match equilibrium::find(&mut frozen) {
-        Err(_) if Interruption::due().is_some() => return Err(NoRest::Interrupted),
-        found => found?,
-    };
+    let (mut frozen, held) = held_rest(model, start, members)?;
     let rests = equilibrium::rest_at(&mut frozen, &held);
-    let is_driven = |body: &usize| model.bodies[*body].contraction().is_some_and(|law| law.is_driven());
-    if members.iter().any(is_driven) { contracting(model, start, members, rests) } else { Ok(rests) }
+    if are_driven(model, members) { contracting(model, start, members, rests) } else { Ok(rests) }
+}
+
+/// Whether a contraction of some bodies moves by its law.
+fn are_driven(model: &Model, members: &[usize]) -> bool {
+    members.iter().any(|body| model.bodies[*body].contraction().is_some_and(|law| law.is_driven()))
+}
+
+/// The bodies with their contractions held, and their numbers at rest.
+fn held_rest(model: &Model, start: &State, members: &[usize]) -> Result<(FrozenSystem, Vec<f64>), NoRest> {
+    let mut frozen = FrozenSystem::new(model, start, members, FrozenContraction::Held);
+    match equilibrium::find(&mut frozen) {
+        Err(_) if Interruption::due().is_some() => Err(NoRest::Interrupted),
+        found => found.map(|held| (frozen, held)),
+    }
 }
 
 /// The rest state of bodies whose contractions move, next to the one that they have while these are held.

@@ -4,7 +4,8 @@
 //!
 //! t_a the force that a vector carries when its bodies rest. Newton's method in the components of F̄ that the cell
 //! feels, with a derivative by differences, each rest sought from the last. Where a component has no stiffness nothing
-//! holds it.
+//! holds it; where that is because contractions flow until no force is left, the cell is that which rests while they
+//! are held, from where on they flow: until neither moves.
 
 use super::doubt::MatrixDoubt;
 use super::strained::StrainedCell;
@@ -29,6 +30,19 @@ const MOST_HALVINGS: usize = 8;
 const SMALL: f64 = 1e-13;
 /// Stiffness below this part of the largest is none: above what differences leave.
 const NO_STIFFNESS: f64 = 1e-8;
+/// Relaxed shapes that change by less have not flowed.
+const STILL: f64 = 1e-9;
+
+/// What contractions do while a cell seeks its rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Contractions {
+    Held,
+    /// They stand still wherever it is.
+    Settle,
+}
+
+/// A cell at rest: itself, F̄ and by how much that may be off.
+type Found = (StrainedCell, Mat3, f64);
 
 impl StrainedCell {
     /// The cell whose vectors rest too; from there on it counts as written.
@@ -36,27 +50,72 @@ impl StrainedCell {
     /// # Errors
     /// [`NoBands`].
     pub fn at_rest(&self, load: CellLoad) -> Result<Self, NoBands> {
+        let found = match self.seek(load, Contractions::Settle) {
+            Err(NoBands::CellNotHeld(component)) if self.contracts() => self.in_turns(load, component),
+            found => found,
+        };
+        let (cell, gradient, left) = found?;
+        cell.as_written(&gradient, left)
+    }
+
+    /// The rest of a cell while contractions are held, then theirs, until neither moves any more; `component` of F̄ has
+    /// no stiffness where they follow.
+    fn in_turns(&self, load: CellLoad, component: String) -> Result<Found, NoBands> {
+        let mut cell = self.clone();
+        for _ in 0..MOST {
+            let (held, gradient, left) = cell.seek(load, Contractions::Held)?;
+            cell = held.at(&gradient)?.0;
+            if cell.relaxed_apart(&held) <= STILL {
+                return Ok((cell, gradient, left));
+            }
+        }
+        Err(NoBands::CellNotHeld(component))
+    }
+
+    /// The largest stiffness of F̄ while contractions are held [J]; zero without any.
+    fn held_stiffness(&self, load: CellLoad, basis: &[Mat3]) -> Result<f64, NoBands> {
+        if !self.contracts() {
+            return Ok(0.0);
+        }
+        let mut most = 0.0_f64;
+        for along in basis {
+            let side = |side: f64| {
+                let beside = self.gradient() + side * DIFFERENCE * along;
+                Ok::<_, NoBands>(self.left(&beside, load, basis, Contractions::Held)?.1)
+            };
+            most = most.max((side(1.0)? - side(-1.0)?).amax() / (2.0 * DIFFERENCE));
+        }
+        Ok(most)
+    }
+
+    /// The F̄ at which nothing is left.
+    fn seek(&self, load: CellLoad, contractions: Contractions) -> Result<Found, NoBands> {
         let basis = components(self.written());
+        let least = match contractions {
+            Contractions::Held => 0.0,
+            Contractions::Settle => NO_STIFFNESS * self.held_stiffness(load, &basis)?,
+        };
         let gradient = |x: &DVector<f64>| {
             let strain: Mat3 = basis.iter().zip(x.iter()).map(|(basis, x)| *x * basis).sum();
             Mat3::identity() + strain
         };
-        let mut x = DVector::zeros(basis.len());
+        let strain = self.gradient() - Mat3::identity();
+        let mut x = DVector::from_iterator(basis.len(), basis.iter().map(|basis| basis.dot(&strain)));
         let mut last = f64::INFINITY;
-        let (mut cell, mut force) = self.left(&gradient(&x), load, &basis)?;
+        let (mut cell, mut force) = self.left(&gradient(&x), load, &basis, contractions)?;
         for _ in 0..MOST {
             let mut stiffness = DMatrix::zeros(basis.len(), basis.len());
             for k in 0..basis.len() {
                 let beside = |side: f64| {
                     let mut beside = x.clone();
                     beside[k] += side * DIFFERENCE;
-                    Ok::<_, NoBands>(cell.left(&gradient(&beside), load, &basis)?.1)
+                    Ok::<_, NoBands>(cell.left(&gradient(&beside), load, &basis, contractions)?.1)
                 };
                 stiffness.set_column(k, &((beside(1.0)? - beside(-1.0)?) / (2.0 * DIFFERENCE)));
             }
             let eigen = (0.5 * (&stiffness + stiffness.transpose())).symmetric_eigen();
             let most = eigen.eigenvalues.amax();
-            let floppy = eigen.eigenvalues.iter().position(|value| value.abs() <= NO_STIFFNESS * most);
+            let floppy = eigen.eigenvalues.iter().position(|value| value.abs() <= least.max(NO_STIFFNESS * most));
             if let Some(k) = floppy {
                 return Err(NoBands::CellNotHeld(named(&basis, &eigen.eigenvectors.column(k).into_owned())));
             }
@@ -70,7 +129,7 @@ impl StrainedCell {
             if size <= SMALL || (size < 1e-9 && size >= 0.5 * last) {
                 return match eigen.eigenvalues.iter().position(|value| *value < 0.0) {
                     // A step of differences is off by a small part of itself.
-                    None => cell.as_written(&gradient(&x), 2.0 * size + SMALL),
+                    None => Ok((cell, gradient(&x), 2.0 * size + SMALL)),
                     Some(k) => Err(NoBands::CellNotHeld(named(&basis, &eigen.eigenvectors.column(k).into_owned()))),
                 };
             }
@@ -79,7 +138,7 @@ impl StrainedCell {
             let mut halvings = 0;
             (cell, force) = loop {
                 let next = &x + &step;
-                match cell.left(&gradient(&next), load, &basis) {
+                match cell.left(&gradient(&next), load, &basis, contractions) {
                     Ok(found) => {
                         x = next;
                         break found;
@@ -114,15 +173,26 @@ impl StrainedCell {
     }
 
     /// ∂(E − Ω₀ S̄·F̄)/∂F̄ or ∂(E + pΩ)/∂F̄ along each component [J].
-    fn left(&self, gradient: &Mat3, load: CellLoad, basis: &[Mat3]) -> Result<(Self, DVector<f64>), NoBands> {
-        let (cell, waves) = self.at(gradient)?;
+    fn left(
+        &self,
+        gradient: &Mat3,
+        load: CellLoad,
+        basis: &[Mat3],
+        contractions: Contractions,
+    ) -> Result<(Self, DVector<f64>), NoBands> {
+        let (cell, forces) = match contractions {
+            Contractions::Held => self.held_at(gradient)?,
+            Contractions::Settle => {
+                let (cell, waves) = self.at(gradient)?;
+                (cell, waves.rest().force.clone())
+            }
+        };
         let written = self.written();
         let vectors = written.vectors();
         let deformed = written.deformed(gradient);
         let dual = deformed.reciprocal();
         let along = |basis: &Mat3| {
-            let forces = waves.rest().force.iter().zip(vectors);
-            let own: f64 = forces.map(|(force, vector)| force.dot(&(basis * vector))).sum();
+            let own: f64 = forces.iter().zip(vectors).map(|(force, vector)| force.dot(&(basis * vector))).sum();
             match load {
                 CellLoad::Stress(stress) => own - written.volume() * stress.dot(basis),
                 CellLoad::Pressure(pressure) => {

@@ -49,7 +49,7 @@ use super::frozen::{FrozenContraction, FrozenSystem};
 use super::participation::PARTS;
 use super::shape::ModeShape;
 use super::system::SystemCoordinates;
-use super::{NoRest, Rest, RestContraction, equilibrium, system_rest};
+use super::{NoRest, Rest, RestContraction, equilibrium, held_rest, system_rest};
 use bloch::{BlochSystem, C64};
 pub(crate) use by_cell::unit_phase;
 use eigenspaces::{hermitian, hermitian_eigen};
@@ -326,6 +326,14 @@ impl LatticeWaves {
         edges::share_alike(&mut branches);
         Ok(BandRow { kappa, k: self.wave_vector(&kappa), branches, roots })
     }
+}
+
+/// The rest of a cell while contractions are held, and the forces that its vectors carry there.
+fn held_forces(model: &Model, start: &State) -> Result<(Vec<Rest>, Vec<Vec3>), NoBands> {
+    let members: Vec<usize> = (0..model.bodies.len()).collect();
+    let (mut frozen, numbers) = held_rest(model, start, &members)?;
+    let (forces, _) = carried(&mut frozen, &model.lattice, &numbers).map_err(NoRest::from)?;
+    Ok((equilibrium::rest_at(&mut frozen, &numbers), forces))
 }
 
 /// The forces that the cell vectors carry, and the stress.

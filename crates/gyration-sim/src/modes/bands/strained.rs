@@ -1,11 +1,11 @@
 //! A cell that is deformed step by step, its bodies following: a_a(s) = F̄(s) a_a, each rest sought from the last.
 
 use super::stability::{Stability, Unstable, ZoneMesh};
-use super::{LatticeWaves, NoBands};
+use super::{LatticeWaves, NoBands, Rest, held_forces};
 use gyration::lattice::Lattice;
 use gyration::model::Model;
 use gyration::state::State;
-use gyration::tensor::Mat3;
+use gyration::tensor::{Mat3, Vec3};
 
 /// Halvings of the step in which a lattice becomes unstable: all digits that s has.
 const HALVINGS: usize = 46;
@@ -155,17 +155,52 @@ impl StrainedCell {
     /// # Errors
     /// [`NoBands`].
     pub fn at(&self, gradient: &Mat3) -> Result<(Self, LatticeWaves), NoBands> {
+        let carried = self.carried_to(gradient)?;
+        let waves = LatticeWaves::new(&carried.model, &carried.state, true)?;
+        Ok((carried.resting(&waves.rest().bodies), waves))
+    }
+
+    /// The same while contractions are held, and the forces that the vectors carry there.
+    pub(super) fn held_at(&self, gradient: &Mat3) -> Result<(Self, Vec<Vec3>), NoBands> {
+        let carried = self.carried_to(gradient)?;
+        let (rests, forces) = held_forces(&carried.model, &carried.state)?;
+        Ok((carried.resting(&rests), forces))
+    }
+
+    /// The cell at another deformation, whose bodies have moved along.
+    fn carried_to(&self, gradient: &Mat3) -> Result<Self, NoBands> {
         let step = self.gradient.try_inverse().map_or(*gradient, |inverse| gradient * inverse);
         if let Some(body) = self.model.leaves_guide(&step) {
             return Err(NoBands::Guide(self.model.name(body).to_owned()));
         }
-        let (model, mut state) = self.state.carried(&self.model, &step, self.written.deformed(gradient));
-        let waves = LatticeWaves::new(&model, &state, true)?;
-        for (body, rest) in waves.rest().bodies.iter().enumerate() {
-            let start = model.slots(body).block().start;
-            state.bodies[start..start + rest.block().len()].copy_from_slice(rest.block());
+        let (model, state) = self.state.carried(&self.model, &step, self.written.deformed(gradient));
+        Ok(Self { model, state, gradient: *gradient, written: self.written.clone(), ..*self })
+    }
+
+    /// The same cell with its bodies where they rest.
+    fn resting(mut self, rests: &[Rest]) -> Self {
+        for (body, rest) in rests.iter().enumerate() {
+            let start = self.model.slots(body).block().start;
+            self.state.bodies[start..start + rest.block().len()].copy_from_slice(rest.block());
         }
-        Ok((Self { model, state, gradient: *gradient, written: self.written.clone(), ..*self }, waves))
+        self
+    }
+
+    /// F̄ now.
+    pub(super) fn gradient(&self) -> &Mat3 {
+        &self.gradient
+    }
+
+    /// Whether a contraction moves by its law.
+    pub(super) fn contracts(&self) -> bool {
+        self.model.bodies.iter().any(|body| body.contraction().is_some_and(|law| law.is_driven()))
+    }
+
+    /// By how much relaxed shapes differ from those of another state of the cell.
+    pub(super) fn relaxed_apart(&self, other: &Self) -> f64 {
+        let contraction = |cell: &Self, body: usize| cell.state.contraction(&cell.model, body);
+        let apart = |body: usize| Some((contraction(self, body)? - contraction(other, body)?).norm());
+        (0..self.model.bodies.len()).filter_map(apart).fold(0.0, f64::max)
     }
 
     /// The cells of a run, of which this is one, where the vectors of this one have come to rest: their bodies move

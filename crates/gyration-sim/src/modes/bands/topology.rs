@@ -8,6 +8,9 @@
 //! together: a Zak phase is then one of the eigenvalues of the product of overlaps (the Wilson loop), a Chern number
 //! that of their determinants. Links whose overlaps are small are halved; of plaquettes the largest phase is told.
 //!
+//! A product of n overlaps misses the phase by a series in n⁻²: n is doubled, and what is left of the series taken off
+//! (Romberg), until that tells no other phase.
+//!
 //! Sources: J. Zak, *Phys. Rev. Lett.* 62 (1989) 2747; T. Fukui, Y. Hatsugai and H. Suzuki, *J. Phys. Soc. Jpn* 74
 //! (2005) 1674.
 
@@ -27,6 +30,10 @@ const OVERLAP: f64 = 0.7;
 const HALVINGS: usize = 40;
 /// A phase this near to −π is π.
 const AT_PI: f64 = 1e-6;
+/// Phases of twice as many links that differ by less are those of any number of them [rad].
+const SETTLED: f64 = 1e-10;
+/// Doublings of the links at most.
+const DOUBLINGS: usize = 7;
 /// ω below this part of the largest is zero: ψ has no phase there.
 const STILL: f64 = 1e-7;
 
@@ -163,27 +170,56 @@ impl LatticeWaves {
             there[axis] = part;
             there
         };
-        let points = (0..mesh).map(|k| self.states(&at(k as f64 / mesh as f64))).collect::<Result<Vec<_>, _>>()?;
+        let states = |part: f64| self.states(&at(part));
+        let mut points = (0..mesh).map(|k| states(k as f64 / mesh as f64)).collect::<Result<Vec<_>, _>>()?;
         let omega: Vec<Vec<f64>> = points.iter().map(|states| states.omega.clone()).collect();
-        let touching = touching(&omega, [mesh, 1], |[part, _]| Ok::<_, NoTopology>(self.states(&at(part))?.omega))?;
+        let touching = touching(&omega, [mesh, 1], |[part, _]| Ok::<_, NoTopology>(states(part)?.omega))?;
+        let groups: Vec<&Vec<usize>> =
+            touching.groups.iter().filter(|group| !self.is_still(group, &touching)).collect();
+        let mut tables = Vec::new();
+        for group in &groups {
+            tables.push(Romberg::new(self.loop_phases(&points, group, &at)?));
+        }
+        for _ in 0..DOUBLINGS {
+            if tables.iter().all(Romberg::is_settled) {
+                break;
+            }
+            let links = 2 * points.len();
+            let between = (0..points.len()).map(|k| states((2 * k + 1) as f64 / links as f64));
+            let between = between.collect::<Result<Vec<_>, _>>()?;
+            points = points.into_iter().zip(between).flat_map(|(point, next)| [point, next]).collect();
+            for (table, group) in tables.iter_mut().zip(&groups) {
+                table.refine(self.loop_phases(&points, group, &at)?);
+            }
+        }
+        let mut tables = tables.into_iter();
         let mut phases = Vec::new();
         for group in &touching.groups {
-            if self.is_still(group, &touching) {
-                phases.extend(group.iter().map(|_| None));
-                continue;
+            match self.is_still(group, &touching) {
+                true => phases.extend(group.iter().map(|_| None)),
+                false => phases.extend(tables.next().into_iter().flat_map(Romberg::phases).map(Some)),
             }
-            let mut product = DMatrix::<C64>::identity(group.len(), group.len());
-            for k in 0..mesh {
-                let ends = [&points[k], &points[(k + 1) % mesh]];
-                let between = [k as f64, k as f64 + 1.0].map(|k| k / mesh as f64);
-                product *=
-                    self.link(ends.map(|states| states.of(group)), between, &|part| at(part), (group, HALVINGS))?;
-            }
-            let values = eigenvalues(&product).ok_or(NoBands::Roots(kappa))?;
-            let mut own: Vec<f64> = values.iter().map(|value| within(-value.argument())).collect();
-            own.sort_by(f64::total_cmp);
-            phases.extend(own.into_iter().map(Some));
         }
+        Ok(phases)
+    }
+
+    /// The phases of the loop of overlaps of a group over points of a line.
+    fn loop_phases(
+        &self,
+        points: &[States],
+        group: &[usize],
+        at: &impl Fn(f64) -> [f64; 3],
+    ) -> Result<Vec<f64>, NoTopology> {
+        let many = points.len();
+        let mut product = DMatrix::<C64>::identity(group.len(), group.len());
+        for k in 0..many {
+            let ends = [&points[k], &points[(k + 1) % many]];
+            let between = [k as f64, k as f64 + 1.0].map(|k| k / many as f64);
+            product *= self.link(ends.map(|states| states.of(group)), between, at, (group, HALVINGS))?;
+        }
+        let values = eigenvalues(&product).ok_or(NoBands::Roots(at(0.0)))?;
+        let mut phases: Vec<f64> = values.iter().map(|value| -value.argument()).collect();
+        phases.sort_by(f64::total_cmp);
         Ok(phases)
     }
 
@@ -254,6 +290,67 @@ impl LatticeWaves {
         found.gaps = gaps(&omega, &found.chern);
         Ok(())
     }
+}
+
+/// Phases of loops of n, 2n, 4n, … links, and what they tend to.
+struct Romberg {
+    /// The last row of the table: the phases as they are, then without n⁻², without n⁻⁴, …
+    row: Vec<Vec<f64>>,
+    /// The best of them, and by how much it differs from the one before [rad].
+    best: Vec<f64>,
+    change: f64,
+}
+
+impl Romberg {
+    fn new(phases: Vec<f64>) -> Self {
+        Self { row: vec![phases.clone()], best: phases, change: f64::INFINITY }
+    }
+
+    fn is_settled(&self) -> bool {
+        self.change < SETTLED
+    }
+
+    /// Takes the phases of twice as many links.
+    fn refine(&mut self, phases: Vec<f64>) {
+        let mut row = vec![alike(&self.row[0], phases)];
+        let apart = |one: &[f64], other: &[f64]| {
+            one.iter().zip(other).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+        };
+        for (k, before) in self.row.iter().enumerate() {
+            let factor = libm::exp2(2.0 * (k + 1) as f64) - 1.0;
+            let better: Vec<f64> = row[k].iter().zip(before).map(|(new, old)| new + (new - old) / factor).collect();
+            let change = apart(&better, &row[k]).max(apart(&row[k], before) * f64::EPSILON);
+            if change < self.change {
+                (self.best, self.change) = (better.clone(), change);
+            }
+            row.push(better);
+        }
+        self.row = row;
+    }
+
+    /// What they tend to, in (−π, π], ascending.
+    fn phases(self) -> Vec<f64> {
+        let mut phases: Vec<f64> = self.best.into_iter().map(|phase| within(principal(phase))).collect();
+        phases.sort_by(f64::total_cmp);
+        phases
+    }
+}
+
+/// Phases in that turn in which, and in that order in which, they are nearest to others.
+fn alike(others: &[f64], phases: Vec<f64>) -> Vec<f64> {
+    let count = phases.len();
+    let shifted = |by: usize| -> Vec<f64> {
+        let phase = |k: usize| others[k] + principal(phases[(k + by) % count] - others[k]);
+        (0..count).map(phase).collect()
+    };
+    let apart = |phases: &[f64]| -> f64 { phases.iter().zip(others).map(|(one, other)| (one - other).abs()).sum() };
+    let nearest = (0..count).map(shifted).min_by(|one, other| apart(one).total_cmp(&apart(other)));
+    nearest.unwrap_or_default()
+}
+
+/// A phase in [−π, π].
+fn principal(phase: f64) -> f64 {
+    phase - TAU * (phase / TAU).round()
 }
 
 /// The largest so many frequencies with their vectors, ascending.

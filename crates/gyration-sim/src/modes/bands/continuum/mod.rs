@@ -99,6 +99,12 @@ pub enum NoContinuum {
     /// Joints join bodies.
     #[error("joints leave no coordinates of its own to each body: write stiff bonds or springs in their place")]
     Joints,
+    /// The cell does not rest.
+    #[error(
+        "a continuum is made of cells at rest, and this one as it is written does not rest: accelerations of {0:.2e} in \
+         units of the bodies' sizes are left; relax = [\"granules\"] seeks its rest"
+    )]
+    Unrest(f64),
     /// There is more than inertia and stiffness.
     #[error(
         "a continuum is made of lattices that lose nothing: leave out damping, friction, fluid, gyroscopic loads, \
@@ -117,6 +123,9 @@ impl LatticeWaves {
     /// # Errors
     /// [`NoContinuum`].
     pub fn continuum(&self, names: &[&str]) -> Result<Continuum, NoContinuum> {
+        if let Some(left) = self.rest.unrest {
+            return Err(NoContinuum::Unrest(left));
+        }
         if !self.system.is_conservative || self.contracts() || !self.system.inertial.weightless.is_empty() {
             return Err(NoContinuum::Losses);
         }
