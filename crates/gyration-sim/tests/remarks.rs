@@ -116,6 +116,24 @@ fn a_reach_within_the_gaps_of_turning_is_warned_of() {
     assert!(matches!(&warnings[..], [short] if short.contains("\"b13\" and \"b14\" is short")), "{warnings:?}");
 }
 
+/// Symptom: of a reach to a support with a shape nothing was said.
+#[test]
+fn a_reach_to_a_support_with_a_shape_is_warned_of() {
+    let told = |reach: &str, nu: f64| {
+        let support = "[[support]]\nname = \"rock\"\nshape = { sphere = { radius = 1 } }\n";
+        let body = ball("a", 0.1, "position = [0, 0, 1.2]\nvelocity = [0, 0, -1]");
+        let contact = format!(
+            "[[contact]]\nbetween = [\"a\", \"rock\"]\nreach = {reach}\nrepulsion = {{ alpha = 100, nu = {nu:?}, d0 = 1e-3 }}\n"
+        );
+        remarks(&format!("{HEAD}{support}{body}{contact}")).warnings
+    };
+    let [short] = &told("2e-5", 6.0)[..] else { panic!("one warning") };
+    assert!(short.contains("between \"a\" and \"rock\" is short: they turn back at"), "{short}");
+    assert!(told("0.02", 6.0).is_empty());
+    let [another] = &told("\"auto\"", 2.5)[..] else { panic!("one warning") };
+    assert!(another.contains("was found for \"a\" and \"rock\""), "{another}");
+}
+
 #[test]
 fn a_feedback_on_the_gap_tells_that_supports_with_a_shape_are_not_felt() {
     let feedback = "feedback = { measure = \"support_gap\", gain = [[0, 0, 0], [0, 0, 0], [0, 0, 10]] }";
@@ -183,6 +201,15 @@ fn energy_stored_at_the_start_that_dwarfs_all_other_is_warned_of() {
     };
     assert!(above(0.05 + 1e-9).iter().any(|told| told.contains("\"a\" and the support \"table\" begin 1.00")));
     assert!(above(0.051).is_empty());
+    // Adhesion alone pushes with its repulsive part.
+    let adhering = |height: f64| {
+        let table = "[[support]]\nname = \"table\"\nplane = {}\n[[contact]]\nsupport = \"table\"\n";
+        let law = "adhesion = { beta = 100, nu_attractive = 3, nu_repulsive = 9, d0 = 1e-3 }\n";
+        let body = ball("a", 0.05, &format!("position = [0, 0, {height:?}]"));
+        remarks(&format!("[time]\nend = 0.01\nsample = 0.01\n{table}{law}{body}")).warnings
+    };
+    assert!(adhering(0.05 + 1e-5).iter().any(|told| told.contains("they are shot apart")));
+    assert!(!adhering(0.052).iter().any(|told| told.contains("they are shot apart")));
 }
 
 #[test]

@@ -139,3 +139,32 @@ fn a_crowd_is_told_in_as_many_words_as_it_has_sorts() {
     assert_eq!(text.matches("[[body]]").count(), 2, "{text}");
     assert_eq!(text.matches("forbids touching").count(), 2, "{text}");
 }
+
+/// Symptom: the gap at which a body would rest was given for one that a force lifts, a potential presses or a fluid
+/// carries.
+#[test]
+fn a_body_on_which_more_acts_than_its_weight_is_given_no_gap_of_rest() {
+    let told = |keys: &str, head: &str| {
+        let text = format!(
+            "{head}time = {{ end = 1, sample = 1 }}\n[[support]]\nname = \"floor\"\nplane = {{}}\n[[contact]]\n\
+             support = \"floor\"\nrepulsion = {{ alpha = 2000, nu = 6, d0 = 1e-3 }}\n\
+             damping = {{ beta = 20000, nu = 6, d0 = 1e-3 }}\n[[body]]\nname = \"b\"\n\
+             shape = {{ box = {{ size = [0.2, 0.2, 0.2] }} }}\ndensity = 1000\nposition = [0, 0, 0.101]\n{keys}\n"
+        );
+        let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]);
+        let scene = scene.unwrap_or_else(|errors| panic!("{errors}"));
+        Survey::of(&scene).unwrap().text(&scene).unwrap()
+    };
+    let alone = told("", "");
+    assert!(alone.contains("rests at a gap of") && alone.contains("damping ratio"), "{alone}");
+    for keys in [
+        "force = [{ point = [0, 0, 0], value = [\"0\", \"0\", \"100\"] }]",
+        "body_force = [\"0\", \"0\", \"9000\"]",
+        "potential = \"-60*z\"",
+    ] {
+        let told = told(keys, "");
+        assert!(!told.contains("rests at a gap of") && told.contains("forces of its own act"), "{told}");
+    }
+    let carried = told("inclusion = {}", "fluid = { viscosity = 1e-3, density = 500 }\n");
+    assert!(!carried.contains("rests at a gap of") && carried.contains("the fluid acts"), "{carried}");
+}

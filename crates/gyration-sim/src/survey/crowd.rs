@@ -102,7 +102,7 @@ fn write_rests(text: &mut String, pairs: &[&PairSurvey], deforms: bool) {
         ("decays in", |rest| rest.damping_time, " s"),
         ("sliding decays in", |rest| rest.friction_time, " s"),
         ("friction is as strong as the weight at", |rest| Some(rest.slip?.weight_speed), " m/s"),
-        ("friction holds up to", |rest| rest.slip?.bound, " of the weight"),
+        ("friction holds up to", |rest| rest.slip?.bound, " of what presses"),
         ("slow rolling decays in", |rest| rest.slip?.rolling_time, " s"),
     ];
     for (name, of, unit) in lines {

@@ -15,16 +15,18 @@
 //!
 //! at which friction carries the weight's part along it, or at that of `slip` under a bound on friction; one that is
 //! round along the slope rolls. A body that something else holds too, a pin, a spring, another support, rests
-//! elsewhere: no such gap is then given, but the reason why not. A body that deforms keeps the P of its start here;
-//! where it really rests, deformed by its weight, is its rest state (`modes`).
+//! elsewhere: no such gap is then given, but the reason why not. Where more than contacts resists it only the gap is. A
+//! body that deforms keeps the P of its start here; where it really rests, deformed by its weight, is its rest state
+//! (`modes`).
 
 use super::balance::TrialGaps;
 use super::slip::Slip;
+use gyration::body::Body;
 use gyration::contact::{
     Contact, ContactLoads, ContactScratch, ContactSlopes, Deformation, LawKind, Meeting, RelativeMotion, Term,
 };
 use gyration::load::Party;
-use gyration::load::{LoadSlopes, Loads};
+use gyration::load::{LoadSlopes, Loads, OwnForces};
 use gyration::model::Model;
 use gyration::state::State;
 use gyration::surface::{GapField, Surface};
@@ -114,6 +116,8 @@ pub struct Approach<'a> {
     /// g_t.
     along: Vec3,
     size: f64,
+    /// Whether more than contacts resists it: what it then does about its rest is not told.
+    is_resisted: bool,
     /// Whether gaps far below the size are known.
     keeps_digits: bool,
     /// W = −m g·n [N].
@@ -144,6 +148,7 @@ impl<'a> Approach<'a> {
             euler: body.solid.mass.euler_tensor,
             along: along_plane(&model.gravity, &plane.normal),
             size: body.size,
+            is_resisted: is_resisted(body),
             keeps_digits: body.keeps_digits(surface),
             weight: -body.solid.mass.mass * model.gravity.dot(&plane.normal),
             initial_gap,
@@ -280,10 +285,11 @@ impl<'a> Approach<'a> {
         let across = self.normal.cross(&Vec3::ith(self.normal.iamin(), 1.0)).normalize();
         let stiffness = against(&slopes.by_place, &self.normal);
         let normal_resistance = against(&slopes.by_rate, &self.normal);
-        let tangential_resistance = if self.resists_sliding() { against(&slopes.by_rate, &across) } else { 0.0 };
+        let slides = self.resists_sliding() && !self.is_resisted;
+        let tangential_resistance = if slides { against(&slopes.by_rate, &across) } else { 0.0 };
         let stable = stiffness > 0.0;
         let frequency = stable.then(|| (stiffness / self.mass).sqrt());
-        let damped = frequency.filter(|_| normal_resistance > 0.0);
+        let damped = frequency.filter(|_| normal_resistance > 0.0 && !self.is_resisted);
         let ratio = damped.map(|frequency| normal_resistance / (2.0 * self.mass * frequency));
         Some(RestGap {
             gap,
@@ -294,7 +300,7 @@ impl<'a> Approach<'a> {
             damping_time: frequency.zip(ratio).map(|(frequency, ratio)| decay_time(frequency, ratio)),
             friction_time: (tangential_resistance > 0.0).then(|| self.mass / tangential_resistance),
             slip: self.slip(gap, &slopes, tangential_resistance, stiffness),
-            descent: self.descent(gap, &slopes, stiffness),
+            descent: if self.is_resisted { None } else { self.descent(gap, &slopes, stiffness) },
         })
     }
 }
@@ -328,11 +334,24 @@ fn held_otherwise(model: &Model, index: usize) -> Option<&'static str> {
         Some("supports with a shape meet it as well")
     } else if model.springs_of(index).any(|end| end.other() == Party::Space) || model.is_joined(index) {
         Some("springs pull at the body as well")
+    } else if body.inclusion.is_some() {
+        Some("the fluid acts on the body as well")
+    } else if body.own.hold() {
+        Some("forces of its own act on the body as well")
+    } else if body.affine().is_some_and(|affine| affine.couple.is_some()) {
+        Some("a couple acts on the body as well")
     } else if supports.any(|support| Some(support) != first) {
         Some("the laws of other supports act on the body as well")
     } else {
         None
     }
+}
+
+/// Whether more than contacts resists the way of a body's centre.
+fn is_resisted(body: &Body) -> bool {
+    let OwnForces { resistance, frictions, absorption, .. } = &body.own;
+    let of_its_own = resistance.is_some() || !frictions.is_empty() || absorption.is_some();
+    of_its_own || body.affine().is_some_and(|affine| !affine.resistances.is_empty())
 }
 
 fn acts(term: Term) -> bool {

@@ -159,10 +159,16 @@ impl Near {
     /// A body and a support at the start.
     fn of_support(model: &Model, start: &State, (body, support): (usize, usize)) -> Option<Self> {
         let approach = Approach::new(model, start, body, support)?;
-        let laws = model.contacts_of(body).filter(|contact| contact.support == support);
-        let laws = laws.flat_map(|contact| contact.law_set.laws());
-        let exponent = laws.filter(|law| law.kind() == LawKind::Repulsion).map(ContactLaw::leading_exponent);
-        let exponent = exponent.fold(1.0, f64::max);
+        let exponent_of = |kind: LawKind| {
+            let laws = model.contacts_of(body).filter(|contact| contact.support == support);
+            let laws = laws.flat_map(|contact| contact.law_set.laws()).filter(|law| law.kind() == kind);
+            laws.map(ContactLaw::leading_exponent).fold(1.0, f64::max)
+        };
+        // Without a repulsion the repulsive part of adhesion pushes.
+        let exponent = match exponent_of(LawKind::Repulsion) {
+            none if none <= 1.0 => exponent_of(LawKind::Adhesion),
+            exponent => exponent,
+        };
         let gap = approach.initial_gap;
         if exponent <= 1.0 || gap > approach.size() {
             return None;
