@@ -164,6 +164,7 @@ rest_length = 0.1
     assert_eq!((there.back(&back), CellShift::of(built, [3, 0, 0]).unwrap().back(&back)), (numbered, back.clone()));
     assert_eq!(CellShift::of(built, [0, 1, 0]), Err(NoShift::FreeEnds(2)));
     assert_eq!(CellShift::of(built, [0, 0, 1]), Err(NoShift::FreeEnds(3)));
+    assert_eq!(CellShift::of(built, [-4, 0, 0]), Err(NoShift::Round { vector: 1, cells: 3, by: -4 }));
     let well = Scene::parse("scene.toml", WELL, Path::new(""), &[]).unwrap_or_else(|errors| panic!("{errors}"));
     let said = OrbitSurvey::of(&well, &OrbitChoice::Nearest, Some([1, 0, 0])).unwrap_err();
     assert!(said.contains("no `[lattice]`"), "{said}");

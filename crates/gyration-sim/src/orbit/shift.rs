@@ -26,6 +26,19 @@ pub enum NoShift {
     /// The cells end.
     #[error("the lattice has free ends along cell vector {0}, where no cell comes to the place of the first")]
     FreeEnds(usize),
+    /// They have come round.
+    #[error(
+        "the ring has {cells} cells along cell vector {vector}, so that {by} are more than once round: --shift takes no \
+         more than {cells}"
+    )]
+    Round {
+        /// Along which vector, from one.
+        vector: usize,
+        /// How many there are.
+        cells: u32,
+        /// By how many they should move.
+        by: i32,
+    },
 }
 
 impl CellShift {
@@ -38,6 +51,9 @@ impl CellShift {
         let vectors = built.model.lattice.vectors().len();
         if let Some(a) = (0..3).find(|a| by[*a] != 0 && !(periodic[*a] && *a < vectors)) {
             return Err(NoShift::FreeEnds(a + 1));
+        }
+        if let Some(a) = (0..3).find(|a| by[*a].unsigned_abs() > repeat[*a]) {
+            return Err(NoShift::Round { vector: a + 1, cells: repeat[a], by: by[a] });
         }
         let count: usize = repeat.iter().map(|many| *many as usize).product();
         let farther = |body: usize| {
