@@ -39,10 +39,10 @@ velocity = [0.3, 0, 0]
 "#;
 
 /// An ellipsoid comes down on its tip, which the field stops some 1e-13 m above the table: fewer digits than a
-/// tolerance of 1e-10 needs, and a curved gap has no more. The run stops at that impact, its ledger open.
+/// tolerance of 1e-11 needs, and a curved gap has no more. The run stops at that impact, its ledger open.
 pub const TIP: &str = r#"
 time = { end = 0.2, sample = 0.01 }
-solver = { rtol = 1e-10, atol = 1e-12 }
+solver = { rtol = 1e-11, atol = 1e-13 }
 [[support]]
 name = "table"
 plane = { origin = [0, 0, 0], normal = [0, 0, 1] }
