@@ -6,15 +6,15 @@ use crate::runs::provenance;
 use gyration::tensor::Vec3;
 use gyration_sim::{Job, MemorySink, Outcome, RunSummary, Simulation, Unwatched};
 
-/// Velocity, P and steps of a body at the end, over a plane at a height [m].
-fn ended(body: &str, height: f64) -> (Vec3, [f64; 9], u64) {
+/// Velocity, P and steps of a body at the end that starts so far above a plane at a height [m].
+fn ended(body: &str, above: f64, height: f64) -> (Vec3, [f64; 9], u64) {
     let scene = parsed(
         &format!(
             "time = {{ end = 0.4, sample = 0.2 }}\n[[support]]\nname = \"floor\"\n\
              plane = {{ origin = [0, 0, {height:?}] }}\n[[contact]]\nsupport = \"floor\"\n\
              repulsion = {{ alpha = 100, nu = 6, d0 = 1e-3 }}\n[[body]]\nname = \"a\"\ndensity = 1000\n\
              position = [0, 0, {:?}]\nangular_velocity = [0, 7, 1]\n{body}\n",
-            height + 0.25
+            height + above
         ),
         &[],
     );
@@ -36,14 +36,24 @@ fn ended(body: &str, height: f64) -> (Vec3, [f64; 9], u64) {
 /// 2e-5; ellipsoids and cylinders lost their energy.
 #[test]
 fn bodies_over_a_far_plane_move_as_over_a_near_one() {
-    for body in [
-        "shape = { box = { size = [0.2, 0.2, 0.1] } }\naffine = { material = { neo_hookean = { shear = 2e5 } }, viscosity = 50 }",
-        "shape = { ellipsoid = { semi_axes = [0.1, 0.08, 0.05] } }",
-        "shape = { cylinder = { radius = 0.1, height = 0.1 } }",
+    for (body, above) in [
+        (
+            "shape = { box = { size = [0.2, 0.2, 0.1] } }\n\
+             affine = { material = { neo_hookean = { shear = 2e5 } }, viscosity = 50 }",
+            0.25,
+        ),
+        ("shape = { ellipsoid = { semi_axes = [0.1, 0.08, 0.05] } }", 0.25),
+        ("shape = { cylinder = { radius = 0.1, height = 0.1 } }", 0.25),
+        ("shape = { cylinder = { radius = 0.1, height = 0.1 } }\npin = [0.125, 0, 0.0625]", 0.125),
+        (
+            "shape = { box = { size = [0.2, 0.2, 0.1] } }\npin = [0.125, 0.125, 0.0625]\n\
+             affine = { material = { neo_hookean = { shear = 2e5 } } }",
+            0.125,
+        ),
     ] {
-        let (velocity, gradient, steps) = ended(body, 0.0);
+        let (velocity, gradient, steps) = ended(body, above, 0.0);
         for height in [1048576.0, 67108864.0] {
-            let (far, far_gradient, far_steps) = ended(body, height);
+            let (far, far_gradient, far_steps) = ended(body, above, height);
             let turned = gradient.iter().zip(far_gradient).map(|(near, far)| (near - far).abs()).fold(0.0, f64::max);
             println!("{body} at {height}: {:.1e} {turned:.1e}, {far_steps} steps for {steps}", (velocity - far).norm());
             assert!((velocity - far).norm() < 1e-6 && turned < 1e-6, "{body} at {height}");

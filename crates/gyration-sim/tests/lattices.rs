@@ -196,8 +196,8 @@ fn a_cell_whose_bodies_flow_rests_at_its_natural_length() {
     let block = |name: &str, place: f64, drag: f64| {
         format!(
             "[[body]]\nname = \"{name}\"\nshape = {{ box = {{ size = [0.1, 0.1, 0.1] }} }}\ndensity = 1000\n\
-             position = [{place:?}, 0, 0]\ncontractile = {{ material = {{ st_venant_kirchhoff = {{ lambda = 0, mu = 500 }} }}, \
-             contraction_viscosity = {drag:?} }}\n"
+             position = [{place:?}, 0, 0]\ncontractile = {{ contraction_viscosity = {drag:?}, \
+             material = {{ st_venant_kirchhoff = {{ lambda = 0, mu = 500 }} }} }}\n"
         )
     };
     let spring = |ends: [&str; 2], cell: u32, law: [f64; 2]| {

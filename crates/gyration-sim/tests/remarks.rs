@@ -123,7 +123,8 @@ fn a_reach_to_a_support_with_a_shape_is_warned_of() {
         let support = "[[support]]\nname = \"rock\"\nshape = { sphere = { radius = 1 } }\n";
         let body = ball("a", 0.1, "position = [0, 0, 1.2]\nvelocity = [0, 0, -1]");
         let contact = format!(
-            "[[contact]]\nbetween = [\"a\", \"rock\"]\nreach = {reach}\nrepulsion = {{ alpha = 100, nu = {nu:?}, d0 = 1e-3 }}\n"
+            "[[contact]]\nbetween = [\"a\", \"rock\"]\nreach = {reach}\n\
+             repulsion = {{ alpha = 100, nu = {nu:?}, d0 = 1e-3 }}\n"
         );
         remarks(&format!("{HEAD}{support}{body}{contact}")).warnings
     };

@@ -46,7 +46,7 @@ pub(super) fn settled(frozen: &mut FrozenSystem, start: Vec<f64>) -> Result<Opti
         let (stiffness, first) = coordinates.first_order(&speeds, &slopes);
         let (size, own) = (force.len(), velocity.len());
         let mut system = DMatrix::zeros(size + own, size + own);
-        let rate = velocity.norm() / PACE;
+        let rate = velocity.amax() / PACE;
         system.view_mut((0, 0), (size, size)).copy_from(&(stiffness + rate * coordinates.resistance(&slopes)));
         system.view_mut((0, size), (size, own)).copy_from(&-first.forces);
         system.view_mut((size, 0), (own, size)).copy_from(&-(&first.by_place + rate * &first.by_rate));

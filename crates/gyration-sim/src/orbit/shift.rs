@@ -28,8 +28,8 @@ pub enum NoShift {
     FreeEnds(usize),
     /// They have come round.
     #[error(
-        "the ring has {cells} cells along cell vector {vector}, so that {by} are more than once round: --shift takes no \
-         more than {cells}"
+        "the ring has {cells} cells along cell vector {vector}, so that {by} are more than once round: --shift takes \
+         no more than {cells}"
     )]
     Round {
         /// Along which vector, from one.

@@ -107,8 +107,8 @@ pub(super) fn left_out(rest: &Rest) -> Option<String> {
     match rest.contraction? {
         RestContraction::Stands(_) => None,
         RestContraction::GoesOn(speed) => Some(format!(
-            "contraction held as it is at the start: let go, it moves, with {} 1/s here, and comes to no state near by in \
-             which it would stand still; what its law does to decay and stability is not known",
+            "contraction held as it is at the start: let go, it moves, with {} 1/s here, and comes to no state near by \
+             in which it would stand still; what its law does to decay and stability is not known",
             significant(speed, 3)
         )),
     }

@@ -154,7 +154,8 @@ fn friction(rest: &RestGap) -> String {
     match slip.bound.zip(slip.creep()) {
         None => format!("; friction is as strong as the weight at {} m/s", short(slip.weight_speed)),
         Some((bound, creep)) => format!(
-            "; friction holds up to {} of what presses on the support, and what it holds creeps: at {} m/s under {} of it",
+            "; friction holds up to {} of what presses on the support, and what it holds creeps: at {} m/s under {} \
+             of it",
             short(bound),
             short(creep),
             short(std::f64::consts::FRAC_1_SQRT_2 * bound),

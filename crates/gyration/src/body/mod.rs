@@ -250,9 +250,10 @@ impl Body {
         kept && self.has_inertia() && self.guide.is_none()
     }
 
-    /// Whether its place is known to twice the digits, so that its distance from the origin takes none of a gap.
+    /// Whether its place, or that of its pin, is known to twice the digits, so that its distance from the origin takes
+    /// none of a gap.
     pub fn keeps_place(&self) -> bool {
-        self.has_inertia() && self.guide.is_none() && self.pin.is_none()
+        self.has_inertia() && self.guide.is_none()
     }
 
     /// The gap [m] to a body whose centre is so far away that cannot be told from zero.

@@ -77,8 +77,8 @@ impl Who<'_> {
         let exponent = pair.form.laws.repulsion.exponent;
         Some(format!(
             "the reach of {reach} m that was found for \"{one}\" and \"{other}\" makes the gap of about {gap} m at \
-             which they turn back {part}: it has 25 gaps of the fastest two, of a repulsion of exponent {exponent}; write \
-             a longer one, or leave it out"
+             which they turn back {part}: it has 25 gaps of the fastest two, of a repulsion of exponent {exponent}; \
+             write a longer one, or leave it out"
         ))
     }
 }

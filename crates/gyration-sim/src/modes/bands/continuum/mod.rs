@@ -101,8 +101,8 @@ pub enum NoContinuum {
     Joints,
     /// The cell does not rest.
     #[error(
-        "a continuum is made of cells at rest, and this one as it is written does not rest: accelerations of {0:.2e} in \
-         units of the bodies' sizes are left; relax = [\"granules\"] seeks its rest"
+        "a continuum is made of cells at rest, and this one as it is written does not rest: accelerations of {0:.2e} \
+         in units of the bodies' sizes are left; relax = [\"granules\"] seeks its rest"
     )]
     Unrest(f64),
     /// There is more than inertia and stiffness.
