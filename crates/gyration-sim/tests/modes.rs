@@ -487,14 +487,20 @@ fn points(text: &str) -> gyration_scene::Scene {
 /// hill to 4.1426, from 3.05 to 0.
 #[test]
 fn the_way_to_rest_leads_over_no_hill() {
-    for (from, to) in [(2.9, 2.0714), (3.05, 2.0714), (0.6, 0.0), (1.1, 2.0714), (-2.9, -2.0714)] {
+    let starts = [(2.9, 2.0714), (3.05, 2.0714), (0.6, 0.0), (1.1, 2.0714), (-2.9, -2.0714)];
+    // Valleys as wide as the body is large, and a tenth of it.
+    for (unit, (from, to)) in [1.0_f64, 0.1].into_iter().flat_map(|unit| starts.map(|start| (unit, start))) {
         let scene = points(&format!(
             "[[body]]\nname = \"p\"\nshape = {{ points = [{{ mass = 1, at = [0, 0, 0] }}] }}\n\
-             position = [{from:?}, 0, 0]\npotential = \"-cos(3*x) + 0.05*x^2 + y^2 + z^2\"\n"
+             position = [{:?}, 0, 0]\npotential = \"-cos({}*x) + {}*x^2 + {}*(y^2 + z^2)\"\n",
+            from * unit,
+            3.0 / unit,
+            0.05 / unit.powi(2),
+            unit.powi(-2)
         ));
         let found = rest(&scene.built().model, &scene.built().state, 0).unwrap_or_else(|error| panic!("{error}"));
-        let place = found.placement.position.x;
-        assert!((place - to).abs() < 1e-3, "from {from} to {place} in the place of {to}");
+        let place = found.placement.position.x / unit;
+        assert!((place - to).abs() < 1e-3, "{unit}: from {from} to {place} in the place of {to}");
     }
 }
 

@@ -7,8 +7,8 @@
 //! place: a body far above its support comes down in growing steps, and directions without force that are free
 //! (sliding, turning about the vertical) or unstable are left alone. A step is halved until gaps and det P keep a part
 //! of their values, no body has passed through another (`barriers`), the work over it by the trapezoidal rule is not
-//! negative, and where it is no step of Newton's the forces along it lead over no hill. Steps that come to nothing
-//! although forces are left have met an edge of the model, not a rest.
+//! negative, and the force along it is at its end what K tells of it, but for a part: a step over a hill would find
+//! another. Steps that come to nothing although forces are left have met an edge of the model, not a rest.
 
 use super::barriers::{Barriers, LEAST_KEPT};
 use super::canonical::{self, Basis};
@@ -24,7 +24,7 @@ use nalgebra::{DMatrix, DVector};
 /// Steps at most. A fall over a thousand sizes takes some forty, a box on its corner that finds a face a hundred.
 const MOST: usize = 1000;
 /// Evaluations of the forces and their derivatives at most: those of a body that deforms take up to 10 ms.
-const MOST_EVALUATIONS: usize = 2000;
+const MOST_EVALUATIONS: usize = 4000;
 /// Halvings of a step at most.
 const HALVINGS: usize = 60;
 /// The most that a step may strain or turn a body.
@@ -196,21 +196,12 @@ enum Progress {
     IsBlocked,
 }
 
-/// Where a step is looked at for hills, as parts of it.
-const INSIDE: [f64; 3] = [0.25, 0.5, 0.75];
-
-/// Whether forces along a way, once they are against it, stay so: what they lead over is no hill.
-fn is_one_valley(forces: impl Iterator<Item = Option<f64>>) -> bool {
-    let mut was_against = false;
-    for force in forces {
-        let Some(force) = force else { return false };
-        if was_against && force > 0.0 {
-            return false;
-        }
-        was_against |= force < 0.0;
-    }
-    true
-}
+/// By what part of the force along a step that at its end may differ from what the stiffness tells: one that has led
+/// over a hill does by more.
+const TRUSTED: f64 = 0.5;
+/// Where a step whose force the stiffness does not stop is looked at besides, as parts of it: far away a force may be
+/// what it should be by chance.
+const INSIDE: [f64; 3] = [0.125, 0.25, 0.5];
 
 struct Search {
     numbers: Vec<f64>,
@@ -237,7 +228,7 @@ impl Search {
         }
         self.last = size;
         let mut grow = |factor: f64| self.reach.iter_mut().for_each(|reach| *reach *= factor);
-        match Self::take(frozen, (&mut self.numbers, self.last), &balance, &way) {
+        match Self::take(frozen, (&mut self.numbers, self.last), &balance, &way.along) {
             Some(1.0) if way.is_cut => grow(2.0),
             Some(1.0) => {}
             Some(_) => grow(0.5),
@@ -289,18 +280,10 @@ impl Search {
         frozen: &mut FrozenSystem,
         (numbers, size): (&mut Vec<f64>, f64),
         balance: &Balance,
-        way: &Way,
+        way: &DVector<f64>,
     ) -> Option<f64> {
-        let Balance { coordinates, force, gaps, barriers, .. } = balance;
-        let Way { along: way, is_cut } = way;
-        let start = numbers.clone();
-        // The forces along the way after a part of it; none outside the model.
-        let inside = |frozen: &mut FrozenSystem, part: f64| {
-            let mut there = start.clone();
-            coordinates.advance_places(&mut there, &(part * way));
-            frozen.project(&mut there);
-            frozen.rates(&there).ok().map(|rates| coordinates.force(&rates).dot(way))
-        };
+        let Balance { coordinates, force, stiffness, gaps, barriers, .. } = balance;
+        let bend = way.dot(&(stiffness * way));
         let volumes = |frozen: &FrozenSystem, numbers: &[f64]| -> Vec<f64> {
             (0..frozen.count()).map(|body| frozen.motion(numbers, body).placement.gradient.determinant()).collect()
         };
@@ -319,12 +302,19 @@ impl Search {
             let is_kept = is_held && keeps_volume && keeps_gaps && barriers.hold(frozen, &ahead);
             if is_kept && let Ok(rates) = frozen.rates(&ahead) {
                 let (before, after) = (force.dot(way), coordinates.force(&rates).dot(way));
-                // Forces at rest are rounding; their work tells nothing.
-                let mut is_one_slope = || {
-                    let middle = INSIDE.map(|inner| inside(frozen, inner * part));
-                    is_one_valley(middle.into_iter().chain([Some(after)]))
+                let is_as_told = |along: f64, part: f64| (along - (before - part * bend)).abs() <= TRUSTED * before;
+                let mut is_as_told_inside = |part: f64| {
+                    let mut there = numbers.clone();
+                    coordinates.advance_places(&mut there, &(part * way));
+                    let is_held = frozen.project(&mut there);
+                    let found = frozen.rates(&there).ok().filter(|_| is_held);
+                    found.is_some_and(|rates| is_as_told(coordinates.force(&rates).dot(way), part))
                 };
-                if size < SMALL || (before + after >= 0.0 && (!is_cut || is_one_slope())) {
+                let goes_on = before + after >= 0.0
+                    && is_as_told(after, part)
+                    && (part * bend >= TRUSTED * before || INSIDE.iter().all(|inner| is_as_told_inside(inner * part)));
+                // Forces at rest are rounding; their work tells nothing.
+                if size < SMALL || goes_on {
                     *numbers = ahead;
                     return Some(part);
                 }

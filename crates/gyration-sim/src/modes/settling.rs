@@ -7,8 +7,11 @@ use gyration::Inadmissible;
 use gyration_threads::Interruption;
 use nalgebra::{DMatrix, DVector};
 
-/// Steps to a state in which the contraction stands still, at most.
-const MOST: usize = 300;
+/// Steps on the way to a state in which the contraction stands still, at most, and steps of Newton's from where it then
+/// has come to: what creeps under a stiff friction takes long.
+const MOST: [usize; 2] = [300, 60];
+/// The farthest that Newton's steps may strain a relaxed shape in all.
+const FARTHEST: f64 = 0.5;
 /// The most that a step may strain body or relaxed shape.
 const LARGEST_STRAIN: f64 = 0.2;
 /// By how much a relaxed shape would be strained at its speed over the time of a step.
@@ -32,11 +35,12 @@ const STILL: f64 = 1e-8;
 ///
 /// by implicit steps of a time τ, in which V_G strains as much as one step may; as V_G vanishes they become those of
 /// Newton's method. Of many states that stand still, as a shape has that flows without resistance, it so comes to the
-/// one that the way ends in; directions that nothing feels are left alone. None where a contraction goes on, or nobody
-/// waits any longer.
+/// one that the way ends in; directions that nothing feels are left alone. Where the way is long, Newton's method goes
+/// on from where it has led. None where a contraction goes on, or nobody waits any longer.
 pub(super) fn settled(frozen: &mut FrozenSystem, start: Vec<f64>) -> Result<Option<Vec<f64>>, Inadmissible> {
     let (mut numbers, mut last, mut largest) = (start, f64::INFINITY, 0.0);
-    for _ in (0..MOST).take_while(|_| Interruption::due().is_none()) {
+    let mut strained = 0.0;
+    for steps in (0..MOST[0] + MOST[1]).take_while(|_| Interruption::due().is_none()) {
         let coordinates = SystemCoordinates::at(frozen, &numbers)?;
         let rates = frozen.rates(&numbers)?;
         let force = coordinates.force(&rates);
@@ -46,7 +50,7 @@ pub(super) fn settled(frozen: &mut FrozenSystem, start: Vec<f64>) -> Result<Opti
         let (stiffness, first) = coordinates.first_order(&speeds, &slopes);
         let (size, own) = (force.len(), velocity.len());
         let mut system = DMatrix::zeros(size + own, size + own);
-        let rate = velocity.amax() / PACE;
+        let rate = if steps < MOST[0] { velocity.amax() / PACE } else { 0.0 };
         system.view_mut((0, 0), (size, size)).copy_from(&(stiffness + rate * coordinates.resistance(&slopes)));
         system.view_mut((0, size), (size, own)).copy_from(&-first.forces);
         system.view_mut((size, 0), (own, size)).copy_from(&-(&first.by_place + rate * &first.by_rate));
@@ -72,6 +76,12 @@ pub(super) fn settled(frozen: &mut FrozenSystem, start: Vec<f64>) -> Result<Opti
         last = strain;
         let cut = (LARGEST_STRAIN / strain).min(1.0);
         (z, strains) = (z * cut, strains * cut);
+        if steps >= MOST[0] {
+            strained += strains.norm();
+            if strained > FARTHEST {
+                return Ok(None);
+            }
+        }
         let mut part = 1.0;
         let ahead = (0..HALVINGS).find_map(|_| {
             let mut ahead = numbers.clone();

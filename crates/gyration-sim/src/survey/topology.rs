@@ -44,6 +44,9 @@ impl Serialize for ChernSurvey {
     }
 }
 
+/// A Zak phase that twice as many overlaps change by more is told [rad].
+const UNSETTLED: f64 = 1e-8;
+
 impl TopologySurvey {
     /// Of the lattice of a scene: the mesh along each direction, and the κ at which the others stay, those of the first
     /// point of a path.
@@ -61,8 +64,13 @@ impl TopologySurvey {
         }
         let waves = waves_of(cell, strain).map_err(|error| error.to_string())?;
         let found = waves.topology(kappa, mesh, &cell.periodic).map_err(|error| error.to_string())?;
-        let Topology { zak, chern, gaps, largest_phase } = found;
+        let Topology { zak, zak_change, chern, gaps, largest_phase } = found;
         let mut warnings = Vec::new();
+        if zak_change > UNSETTLED {
+            warnings.push(format!(
+                "twice as many overlaps still change a Zak phase by {zak_change:.1e} rad: take a finer mesh, or other κ"
+            ));
+        }
         if largest_phase > 0.5 * PI {
             warnings.push(format!(
                 "a plaquette of the mesh has a phase of {largest_phase:.2} rad, and beyond π it would count as \

@@ -6,7 +6,8 @@
 //! Without gyroscopic loads ψ is as good as ξ along coordinates of mass one. Phases are those of the cell, so that ψ is
 //! the same at κ and κ plus whole numbers, and a Zak phase depends on what counts as one cell. Branches that touch go
 //! together: a Zak phase is then one of the eigenvalues of the product of overlaps (the Wilson loop), a Chern number
-//! that of their determinants. Links whose overlaps are small are halved; of plaquettes the largest phase is told.
+//! that of their determinants. Links whose overlaps are small are halved before; of plaquettes the largest phase is
+//! told.
 //!
 //! A product of n overlaps misses the phase by a series in n⁻²: n is doubled, and what is left of the series taken off
 //! (Romberg), until that tells no other phase.
@@ -20,12 +21,12 @@ use super::touching::{Touching, touching};
 use super::waves::NEUTRAL;
 use super::{LatticeWaves, NoBands};
 use gyration_threads::Interruption;
-use nalgebra::{ComplexField, DMatrix};
+use nalgebra::{ComplexField, DMatrix, Dyn, SymmetricEigen};
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
 /// An overlap of neighbouring states below this is no neighbourhood: the link is halved.
-const OVERLAP: f64 = 0.7;
+const OVERLAP: f64 = 0.97;
 /// Halvings of a link at most: κ then has no more digits.
 const HALVINGS: usize = 40;
 /// A phase this near to −π is π.
@@ -43,6 +44,8 @@ pub struct Topology {
     /// The Zak phases [rad], in (−π, π]: a row a periodic direction, an entry a branch; ascending among branches that
     /// touch on the way, none where ω vanishes and gyroscopic loads act.
     pub zak: Vec<Vec<Option<f64>>>,
+    /// By how much twice as many overlaps change a Zak phase [rad].
+    pub zak_change: f64,
     /// The Chern numbers of branches that touch no other, and of groups that do; none of a lattice that is not periodic
     /// along two directions.
     pub chern: Vec<BranchChern>,
@@ -123,8 +126,10 @@ impl LatticeWaves {
         }
         let axes: Vec<usize> = (0..periodic.len()).filter(|a| periodic[*a]).collect();
         let mesh = mesh.max(3);
-        let zak = axes.iter().map(|axis| self.zak(kappa, *axis, mesh)).collect::<Result<_, _>>()?;
-        let mut found = Topology { zak, chern: Vec::new(), gaps: Vec::new(), largest_phase: 0.0 };
+        let zak = axes.iter().map(|axis| self.zak(kappa, *axis, mesh)).collect::<Result<Vec<_>, _>>()?;
+        let change = zak.iter().map(|(_, change)| *change).fold(0.0, f64::max);
+        let zak = zak.into_iter().map(|(phases, _)| phases).collect();
+        let mut found = Topology { zak, zak_change: change, chern: Vec::new(), gaps: Vec::new(), largest_phase: 0.0 };
         if let [one, other] = axes[..] {
             self.chern([one, other], mesh, &mut found)?;
         }
@@ -163,35 +168,60 @@ impl LatticeWaves {
         !self.system.is_conservative && group[0] == 0 && touching.least <= STILL * touching.most
     }
 
-    /// The Zak phase of each branch along a direction.
-    fn zak(&self, kappa: [f64; 3], axis: usize, mesh: usize) -> Result<Vec<Option<f64>>, NoTopology> {
+    /// The Zak phase of each branch along a direction, and by how much the last doubling has changed one [rad].
+    fn zak(&self, kappa: [f64; 3], axis: usize, mesh: usize) -> Result<(Vec<Option<f64>>, f64), NoTopology> {
         let at = |part: f64| {
             let mut there = kappa;
             there[axis] = part;
             there
         };
         let states = |part: f64| self.states(&at(part));
-        let mut points = (0..mesh).map(|k| states(k as f64 / mesh as f64)).collect::<Result<Vec<_>, _>>()?;
-        let omega: Vec<Vec<f64>> = points.iter().map(|states| states.omega.clone()).collect();
+        let at_link = |k: usize| {
+            let part = k as f64 / mesh as f64;
+            Ok::<_, NoTopology>((part, states(part)?))
+        };
+        let mut points = (0..mesh).map(at_link).collect::<Result<Vec<_>, _>>()?;
+        let omega: Vec<Vec<f64>> = points.iter().map(|(_, states)| states.omega.clone()).collect();
         let touching = touching(&omega, [mesh, 1], |[part, _]| Ok::<_, NoTopology>(states(part)?.omega))?;
         let groups: Vec<&Vec<usize>> =
             touching.groups.iter().filter(|group| !self.is_still(group, &touching)).collect();
+        for _ in 0..HALVINGS {
+            let are_far = |ends: [&States; 2]| -> Option<bool> {
+                let overlap = |group: &&Vec<usize>| least_overlap(&ends.map(|states| states.of(group)));
+                Some(groups.iter().map(overlap).collect::<Option<Vec<_>>>()?.into_iter().any(|least| least < OVERLAP))
+            };
+            let (count, mut more) = (points.len(), Vec::new());
+            for (k, point) in points.iter().enumerate() {
+                more.push(point.clone());
+                if are_far([&point.1, &points[(k + 1) % count].1]).ok_or(NoBands::Roots(kappa))? {
+                    let part = middle(&points, k);
+                    more.push((part, states(part)?));
+                }
+            }
+            points = more;
+            if points.len() == count {
+                break;
+            }
+        }
         let mut tables = Vec::new();
         for group in &groups {
-            tables.push(Romberg::new(self.loop_phases(&points, group, &at)?));
+            tables.push(Romberg::new(loop_phases(&points, group).ok_or(NoBands::Roots(kappa))?));
         }
         for _ in 0..DOUBLINGS {
             if tables.iter().all(Romberg::is_settled) {
                 break;
             }
-            let links = 2 * points.len();
-            let between = (0..points.len()).map(|k| states((2 * k + 1) as f64 / links as f64));
-            let between = between.collect::<Result<Vec<_>, _>>()?;
-            points = points.into_iter().zip(between).flat_map(|(point, next)| [point, next]).collect();
+            let mut halved = Vec::new();
+            for (k, point) in points.iter().enumerate() {
+                let part = middle(&points, k);
+                halved.extend([point.clone(), (part, states(part)?)]);
+            }
+            points = halved;
             for (table, group) in tables.iter_mut().zip(&groups) {
-                table.refine(self.loop_phases(&points, group, &at)?);
+                table.refine(loop_phases(&points, group).ok_or(NoBands::Roots(kappa))?);
             }
         }
+        let change = tables.iter().map(|table| table.change).fold(0.0, f64::max);
         let mut tables = tables.into_iter();
         let mut phases = Vec::new();
         for group in &touching.groups {
@@ -200,51 +230,7 @@ impl LatticeWaves {
                 false => phases.extend(tables.next().into_iter().flat_map(Romberg::phases).map(Some)),
             }
         }
-        Ok(phases)
-    }
-
-    /// The phases of the loop of overlaps of a group over points of a line.
-    fn loop_phases(
-        &self,
-        points: &[States],
-        group: &[usize],
-        at: &impl Fn(f64) -> [f64; 3],
-    ) -> Result<Vec<f64>, NoTopology> {
-        let many = points.len();
-        let mut product = DMatrix::<C64>::identity(group.len(), group.len());
-        for k in 0..many {
-            let ends = [&points[k], &points[(k + 1) % many]];
-            let between = [k as f64, k as f64 + 1.0].map(|k| k / many as f64);
-            product *= self.link(ends.map(|states| states.of(group)), between, at, (group, HALVINGS))?;
-        }
-        let values = eigenvalues(&product).ok_or(NoBands::Roots(at(0.0)))?;
-        let mut phases: Vec<f64> = values.iter().map(|value| -value.argument()).collect();
-        phases.sort_by(f64::total_cmp);
-        Ok(phases)
-    }
-
-    /// The unitary part of the overlap of the states of a group between two places of a line, halved where it is small.
-    fn link(
-        &self,
-        [from, to]: [DMatrix<C64>; 2],
-        [start, end]: [f64; 2],
-        at: &impl Fn(f64) -> [f64; 3],
-        (group, halvings): (&[usize], usize),
-    ) -> Result<DMatrix<C64>, NoTopology> {
-        let roots = || NoBands::Roots(at(start));
-        let overlap = from.adjoint() * &to;
-        // The polar decomposition, of which the singular values are the least overlaps.
-        let squares = hermitian_eigen(hermitian(overlap.adjoint() * &overlap)).ok_or_else(roots)?;
-        let least = squares.eigenvalues.iter().copied().fold(f64::INFINITY, f64::min);
-        if least < OVERLAP * OVERLAP && halvings > 0 {
-            let middle = 0.5 * (start + end);
-            let states = self.states(&at(middle))?.of(group);
-            let first = self.link([from, states.clone()], [start, middle], at, (group, halvings - 1))?;
-            return Ok(first * self.link([states, to], [middle, end], at, (group, halvings - 1))?);
-        }
-        let inverse = squares.eigenvalues.map(|square| C64::new(1.0 / libm::sqrt(square.max(f64::MIN_POSITIVE)), 0.0));
-        let size = &squares.eigenvectors * DMatrix::from_diagonal(&inverse) * squares.eigenvectors.adjoint();
-        Ok(overlap * size)
+        Ok((phases, change))
     }
 
     /// The Chern numbers of the plane of two directions.
@@ -292,11 +278,50 @@ impl LatticeWaves {
     }
 }
 
+/// The middle of a link of a line that closes at one, the last of which leads back to the first.
+fn middle(points: &[(f64, States)], link: usize) -> f64 {
+    let end = points.get(link + 1).map_or(1.0 + points[0].0, |point| point.0);
+    0.5 * (points[link].0 + end)
+}
+
+/// The eigenvalues of AᴴA with their vectors, A the overlaps of two neighbours.
+fn squared(overlap: &DMatrix<C64>) -> Option<SymmetricEigen<C64, Dyn>> {
+    hermitian_eigen(hermitian(overlap.adjoint() * overlap))
+}
+
+/// The least overlap of the states of a group between two places.
+fn least_overlap([from, to]: &[DMatrix<C64>; 2]) -> Option<f64> {
+    let squares = squared(&(from.adjoint() * to))?;
+    Some(squares.eigenvalues.iter().copied().fold(f64::INFINITY, f64::min).max(0.0).sqrt())
+}
+
+/// The unitary part of the overlaps of the states of a group between two places, by the polar decomposition.
+fn link([from, to]: [DMatrix<C64>; 2]) -> Option<DMatrix<C64>> {
+    let overlap = from.adjoint() * to;
+    let squares = squared(&overlap)?;
+    let inverse = squares.eigenvalues.map(|square| C64::new(1.0 / libm::sqrt(square.max(f64::MIN_POSITIVE)), 0.0));
+    let size = &squares.eigenvectors * DMatrix::from_diagonal(&inverse) * squares.eigenvectors.adjoint();
+    Some(overlap * size)
+}
+
+/// The phases of the loop of overlaps of a group over points of a line.
+fn loop_phases(points: &[(f64, States)], group: &[usize]) -> Option<Vec<f64>> {
+    let mut product = DMatrix::<C64>::identity(group.len(), group.len());
+    for (k, (_, states)) in points.iter().enumerate() {
+        let (_, next) = &points[(k + 1) % points.len()];
+        product *= link([states.of(group), next.of(group)])?;
+    }
+    let mut phases: Vec<f64> = eigenvalues(&product)?.iter().map(|value| -value.argument()).collect();
+    phases.sort_by(f64::total_cmp);
+    Some(phases)
+}
+
 /// Phases of loops of n, 2n, 4n, … links, and what they tend to.
 struct Romberg {
     /// The last row of the table: the phases as they are, then without n⁻², without n⁻⁴, …
     row: Vec<Vec<f64>>,
-    /// The best of them, and by how much it differs from the one before [rad].
+    /// The best of that row, and by how much it differs from the one before, or from the best of the row before [rad]:
+    /// two may agree by chance.
     best: Vec<f64>,
     change: f64,
 }
@@ -316,16 +341,18 @@ impl Romberg {
         let apart = |one: &[f64], other: &[f64]| {
             one.iter().zip(other).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
         };
+        let (mut best, mut least) = (row[0].clone(), f64::INFINITY);
         for (k, before) in self.row.iter().enumerate() {
             let factor = libm::exp2(2.0 * (k + 1) as f64) - 1.0;
             let better: Vec<f64> = row[k].iter().zip(before).map(|(new, old)| new + (new - old) / factor).collect();
-            let change = apart(&better, &row[k]).max(apart(&row[k], before) * f64::EPSILON);
-            if change < self.change {
-                (self.best, self.change) = (better.clone(), change);
+            let change = apart(&better, &row[k]);
+            if change < least {
+                (best, least) = (better.clone(), change);
             }
             row.push(better);
         }
-        self.row = row;
+        self.change = least.max(apart(&best, &self.best));
+        (self.best, self.row) = (best, row);
     }
 
     /// What they tend to, in (−π, π], ascending.
