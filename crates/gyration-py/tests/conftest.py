@@ -26,7 +26,7 @@ BALL = {
 # An ellipsoid comes down on its tip, and stops at that impact with its ledger open: a curved gap has not the digits for these tolerances.
 TIP = {
     "time": {"end": 0.2, "sample": 0.01},
-    "solver": {"rtol": 1e-10, "atol": 1e-12},
+    "solver": {"rtol": 1e-11, "atol": 1e-13},
     "support": [{"name": "table", "plane": {"origin": [0, 0, 0], "normal": [0, 0, 1]}}],
     "contact": [{"support": "table", "repulsion": {"alpha": 1e9, "nu": 3, "d0": 1e-8}}],
     "body": [
