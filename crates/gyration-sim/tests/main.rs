@@ -25,6 +25,7 @@ mod joints;
 mod lattice_exports;
 mod lattices;
 mod long_bodies;
+mod mass_points;
 mod meetings;
 mod modes;
 mod neighbours;

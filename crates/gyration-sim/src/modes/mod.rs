@@ -245,12 +245,12 @@ pub fn system_rest(model: &Model, start: &State, members: &[usize]) -> Result<Ve
     }
     let (mut frozen, held) = held_rest(model, start, members)?;
     let rests = equilibrium::rest_at(&mut frozen, &held);
-    if are_driven(model, members) { contracting(model, start, members, rests) } else { Ok(rests) }
+    if are_driven(model, members.iter().copied()) { contracting(model, start, members, rests) } else { Ok(rests) }
 }
 
 /// Whether a contraction of some bodies moves by its law.
-fn are_driven(model: &Model, members: &[usize]) -> bool {
-    members.iter().any(|body| model.bodies[*body].contraction().is_some_and(|law| law.is_driven()))
+fn are_driven(model: &Model, mut members: impl Iterator<Item = usize>) -> bool {
+    members.any(|body| model.bodies[body].contraction().is_some_and(|law| law.is_driven()))
 }
 
 /// The bodies with their contractions held, and their numbers at rest.

@@ -49,7 +49,7 @@ use super::frozen::{FrozenContraction, FrozenSystem};
 use super::participation::PARTS;
 use super::shape::ModeShape;
 use super::system::SystemCoordinates;
-use super::{NoRest, Rest, RestContraction, equilibrium, held_rest, system_rest};
+use super::{NoRest, Rest, RestContraction, are_driven, equilibrium, held_rest, system_rest};
 use bloch::{BlochSystem, C64};
 pub(crate) use by_cell::unit_phase;
 use eigenspaces::{hermitian, hermitian_eigen};

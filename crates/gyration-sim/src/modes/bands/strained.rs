@@ -1,7 +1,7 @@
 //! A cell that is deformed step by step, its bodies following: a_a(s) = F̄(s) a_a, each rest sought from the last.
 
 use super::stability::{Stability, Unstable, ZoneMesh};
-use super::{LatticeWaves, NoBands, Rest, held_forces};
+use super::{LatticeWaves, NoBands, Rest, are_driven, held_forces};
 use gyration::lattice::Lattice;
 use gyration::model::Model;
 use gyration::state::State;
@@ -193,7 +193,7 @@ impl StrainedCell {
 
     /// Whether a contraction moves by its law.
     pub(super) fn contracts(&self) -> bool {
-        self.model.bodies.iter().any(|body| body.contraction().is_some_and(|law| law.is_driven()))
+        are_driven(&self.model, 0..self.model.bodies.len())
     }
 
     /// By how much relaxed shapes differ from those of another state of the cell.
