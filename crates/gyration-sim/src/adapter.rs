@@ -376,8 +376,8 @@ impl System for ModelSystem {
             let is_extended = gap < near && apart > near;
             let known = match is_extended {
                 true if keeps() => gap,
-                true if body.keeps_place() => body.size,
-                _ => lengths,
+                true => body.height_scale(&motion.placement.position),
+                false => lengths,
             };
             let rounding = 4.0 * f64::EPSILON * known;
             // Springs make velocities of the rounding of places.

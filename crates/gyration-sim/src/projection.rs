@@ -57,16 +57,17 @@ fn restore_bodies(model: &Model, t: f64, y: ExtendedMut, w: &mut [f64]) -> f64 {
     correction
 }
 
-/// Puts a body back to what its motion is kept to, whose numbers have no digits beyond their own.
+/// Puts a body back to what its motion is kept to. Of its numbers only those of a centre have digits beyond their own.
 pub(crate) fn restore_guided(body: &Body, slots: &Slots, y: &mut [f64], low: &mut [f64]) {
-    if let Some(lacking) = low.get_mut(slots.places().start..slots.velocities().end) {
+    if let Some(lacking) = low.get_mut(slots.position().end..slots.velocities().end) {
         lacking.fill(0.0);
     }
+    let lacking = low.get_mut(slots.position()).unwrap_or_default();
     let (_, own) = y.split_at_mut(slots.position().start);
     let (position, own) = own.split_at_mut(slots.position().len());
     let (attitude, own) = own.split_at_mut(slots.attitude().len());
     let (velocity, own) = own.split_at_mut(slots.velocity().len());
-    body.restore_guided([position, attitude, velocity, &mut own[..slots.rate().len()]]);
+    body.restore_guided([position, attitude, velocity, &mut own[..slots.rate().len()]], lacking);
 }
 
 /// Puts a quaternion back to length one, by a factor: its direction keeps all its digits, those in `low` too, if there

@@ -13,8 +13,10 @@ fn ended(body: &str, above: f64, height: f64) -> (Vec3, [f64; 9], u64) {
             "time = {{ end = 0.4, sample = 0.2 }}\n[[support]]\nname = \"floor\"\n\
              plane = {{ origin = [0, 0, {height:?}] }}\n[[contact]]\nsupport = \"floor\"\n\
              repulsion = {{ alpha = 100, nu = 6, d0 = 1e-3 }}\n[[body]]\nname = \"a\"\ndensity = 1000\n\
-             position = [0, 0, {:?}]\nangular_velocity = [0, 7, 1]\n{body}\n",
-            height + above
+             position = [0, 0, {:?}]\nangular_velocity = [0, 7, {}]\n{body}\n",
+            height + above,
+            // What is kept to a plane turns about its normal alone.
+            if body.contains("keep") { 0 } else { 1 }
         ),
         &[],
     );
@@ -49,6 +51,12 @@ fn bodies_over_a_far_plane_move_as_over_a_near_one() {
             "shape = { box = { size = [0.2, 0.2, 0.1] } }\npin = [0.125, 0.125, 0.0625]\n\
              affine = { material = { neo_hookean = { shear = 2e5 } } }",
             0.125,
+        ),
+        ("shape = { box = { size = [0.2, 0.2, 0.1] } }\nvelocity = [1, 0, 0]\nkeep = { plane = [0, 1, 0] }", 0.25),
+        (
+            "shape = { box = { size = [0.2, 0.2, 0.1] } }\nvelocity = [1, 0, 0]\nkeep = { plane = [0, 1, 0] }\n\
+             affine = { material = { neo_hookean = { shear = 2e5 } }, viscosity = 50 }",
+            0.25,
         ),
     ] {
         let (velocity, gradient, steps) = ended(body, above, 0.0);

@@ -65,7 +65,7 @@ fn ring(free: usize, inertia: bool) -> (Model, State) {
         let (attitude, own) = own.split_at_mut(slots.attitude().len());
         let (velocity, own) = own.split_at_mut(slots.velocity().len());
         let rate = &mut own[..slots.rate().len()];
-        body.restore_guided([position, attitude, velocity, rate]);
+        body.restore_guided([position, attitude, velocity, rate], &mut []);
         if let Some(affine) = body.affine() {
             let p = Mat3::from_column_slice(attitude);
             let still = Mat3::zeros();

@@ -9,6 +9,7 @@
 
 use super::{Body, RigidInertia, Slots};
 use crate::affine::StrainGuide;
+use crate::extended::Extended;
 use crate::kinematics::Quaternion;
 use crate::tensor::{Mat3, Vec3};
 use nalgebra::DMatrix;
@@ -67,12 +68,20 @@ impl TurnGuide {
 }
 
 impl Guide {
-    /// Puts p₀ and ṗ₀ back, if the state has them.
-    fn restore_center(&self, position: &mut [f64], velocity: &mut [f64]) {
+    /// Puts p₀ and ṗ₀ back, if the state has them; what p₀ lacks, if it is known, is that of the start and of the way
+    /// from there, which has the digits of one number.
+    fn restore_center(&self, position: &mut [f64], lacking: &mut [f64], velocity: &mut [f64]) {
         let Some(center) = &self.center else { return };
         if !position.is_empty() {
-            let placed = self.position + center * (Vec3::from_column_slice(position) - self.position);
-            position.copy_from_slice(placed.as_slice());
+            let way = Vec3::from_fn(|i, _| position[i] - self.position[i] + lacking.get(i).unwrap_or(&0.0));
+            let placed = center * way;
+            for (i, place) in position.iter_mut().enumerate() {
+                let sum = Extended::sum(self.position[i], placed[i]);
+                *place = sum.high;
+                if let Some(lacking) = lacking.get_mut(i) {
+                    *lacking = sum.low;
+                }
+            }
         }
         if !velocity.is_empty() {
             let moved = center * Vec3::from_column_slice(velocity);
@@ -105,10 +114,10 @@ impl Body {
     }
 
     /// Puts the numbers of its places and velocities back to what its motion is kept to, all of which may be empty: p₀,
-    /// the quaternion or P, ṗ₀, and Ω or Ṗ.
-    pub fn restore_guided(&self, [position, attitude, velocity, rate]: [&mut [f64]; 4]) {
+    /// the quaternion or P, ṗ₀, and Ω or Ṗ; and what the numbers of p₀ lack, if that is known.
+    pub fn restore_guided(&self, [position, attitude, velocity, rate]: [&mut [f64]; 4], lacking: &mut [f64]) {
         let Some(guide) = &self.guide else { return };
-        guide.restore_center(position, velocity);
+        guide.restore_center(position, lacking, velocity);
         if let Some(strain) = self.strain_guide() {
             for numbers in [attitude, rate] {
                 if !numbers.is_empty() {

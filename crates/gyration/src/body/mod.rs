@@ -252,8 +252,19 @@ impl Body {
 
     /// Whether its place, or that of its pin, is known to twice the digits, so that its distance from the origin takes
     /// none of a gap.
-    pub fn keeps_place(&self) -> bool {
-        self.has_inertia() && self.guide.is_none()
+    pub(crate) fn keeps_place(&self) -> bool {
+        self.has_inertia()
+    }
+
+    /// The length \[m\] of which its height over a plane has the digits, its centre at a place: its own, and its way
+    /// from the start along a guide; without inertia also its distance from the origin.
+    pub fn height_scale(&self, position: &Vec3) -> f64 {
+        let way = match &self.guide {
+            _ if !self.keeps_place() => position.norm(),
+            Some(guide) if guide.center.is_some() => (position - guide.position).norm(),
+            _ => 0.0,
+        };
+        self.size + way
     }
 
     /// The gap [m] to a body whose centre is so far away that cannot be told from zero.
