@@ -11,12 +11,13 @@ fn points(text: &str) -> Scene {
 }
 
 /// V = −cos 3x + x²/20 has valleys at 0 and 2.0714 and a hill at 3.1 beyond. Symptom: from 2.9 the search went over the
-/// hill to 4.1426, from 3.05 to 0.
+/// hill to 4.1426, from 3.05 to 0, and to −4.14 where valleys were a hundredth of the body.
 #[test]
 fn the_way_to_rest_leads_over_no_hill() {
     let starts = [(2.9, 2.0714), (3.05, 2.0714), (0.6, 0.0), (1.1, 2.0714), (-2.9, -2.0714)];
-    // Valleys as wide as the body is large, and a tenth of it.
-    for (unit, (from, to)) in [1.0_f64, 0.1].into_iter().flat_map(|unit| starts.map(|start| (unit, start))) {
+    // Valleys as wide as the body is large, and parts of it.
+    for (unit, (from, to)) in [1.0_f64, 0.1, 0.01, 0.001].into_iter().flat_map(|unit| starts.map(|start| (unit, start)))
+    {
         let scene = points(&format!(
             "[[body]]\nname = \"p\"\nshape = {{ points = [{{ mass = 1, at = [0, 0, 0] }}] }}\n\
              position = [{:?}, 0, 0]\npotential = \"-cos({}*x) + {}*x^2 + {}*(y^2 + z^2)\"\n",

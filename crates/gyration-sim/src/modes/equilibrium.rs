@@ -199,9 +199,18 @@ enum Progress {
 /// By what part of the force along a step that at its end may differ from what the stiffness tells: one that has led
 /// over a hill does by more.
 const TRUSTED: f64 = 0.5;
-/// Where a step whose force the stiffness does not stop is looked at besides, as parts of it: far away a force may be
-/// what it should be by chance.
+/// Where a step is looked at besides, as parts of it, unless it is the end of a way that closes in and the stiffness
+/// stops its force: far away a force may be what it should be by chance.
 const INSIDE: [f64; 3] = [0.125, 0.25, 0.5];
+/// A step below this part of the one before closes in: Newton's method does near a rest.
+const CLOSING: f64 = 0.5;
+
+/// How a step stands to the one before.
+struct Pace {
+    /// In lengths and strains.
+    size: f64,
+    is_closing: bool,
+}
 
 struct Search {
     numbers: Vec<f64>,
@@ -226,9 +235,10 @@ impl Search {
         if size == 0.0 || (size < SMALL && size > 0.5 * self.last) {
             return Ok(if size > 0.0 && way.is_cut { Progress::IsBlocked } else { Progress::Rests });
         }
+        let pace = Pace { size, is_closing: size < CLOSING * self.last };
         self.last = size;
         let mut grow = |factor: f64| self.reach.iter_mut().for_each(|reach| *reach *= factor);
-        match Self::take(frozen, (&mut self.numbers, self.last), &balance, &way.along) {
+        match Self::take(frozen, &mut self.numbers, &pace, &balance, &way.along) {
             Some(1.0) if way.is_cut => grow(2.0),
             Some(1.0) => {}
             Some(_) => grow(0.5),
@@ -278,7 +288,8 @@ impl Search {
     /// Takes the largest part 1, ½, ¼ … of a step that is admissible and goes downhill; none if there is none.
     fn take(
         frozen: &mut FrozenSystem,
-        (numbers, size): (&mut Vec<f64>, f64),
+        numbers: &mut Vec<f64>,
+        pace: &Pace,
         balance: &Balance,
         way: &DVector<f64>,
     ) -> Option<f64> {
@@ -312,9 +323,10 @@ impl Search {
                 };
                 let goes_on = before + after >= 0.0
                     && is_as_told(after, part)
-                    && (part * bend >= TRUSTED * before || INSIDE.iter().all(|inner| is_as_told_inside(inner * part)));
+                    && (pace.is_closing && part * bend >= TRUSTED * before
+                        || INSIDE.iter().all(|inner| is_as_told_inside(inner * part)));
                 // Forces at rest are rounding; their work tells nothing.
-                if size < SMALL || goes_on {
+                if pace.size < SMALL || goes_on {
                     *numbers = ahead;
                     return Some(part);
                 }
