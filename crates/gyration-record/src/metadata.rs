@@ -11,9 +11,10 @@ use crate::array::{ArrayInfo, DataType};
 use crate::error::RecordError;
 use crate::layout::{BOUNDARY, ENTRY, Layout, Ragged, RaggedArray, START};
 use crate::names::{METADATA, is_column, is_name, is_path, is_word};
-use crate::zarr::{Marker, ZarrGroup, array_of, group_head, group_tail};
+use crate::zarr::{Marker, ZarrGroup, array_of, attribute_text, group_head, group_tail};
 use gyration_files::check;
 use serde_json::Value;
+use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -31,11 +32,14 @@ const CHECKSUM_PLACE: &str = "\n    \"record_checksum\": \"";
 
 /// The whole metadata of a recording.
 #[derive(Debug, Clone)]
-pub(crate) struct Group {
-    pub(crate) attributes: Attributes,
+pub(crate) struct Group<A = Attributes> {
+    pub(crate) attributes: A,
     /// The growing arrays in the order of a row, `time` first; the events; the fixed arrays and labels.
     pub(crate) arrays: Vec<ArrayInfo>,
 }
+
+/// Attributes as text: what a writer keeps, a quarter of what they take as values.
+pub(crate) type AttributeTexts = BTreeMap<String, Box<RawValue>>;
 
 impl Group {
     /// The metadata of a new recording.
@@ -69,35 +73,15 @@ impl Group {
         Ok(Self { attributes, arrays })
     }
 
-    /// The name of the ragged group; none without one.
-    pub(crate) fn ragged(&self) -> Option<&str> {
-        self.arrays.iter().find(|array| array.grows_with(BOUNDARY))?.name.strip_suffix("/start")
-    }
-
-    /// Rows along a growing dimension; none if nothing grows along it.
-    pub(crate) fn rows(&self, dim: &str) -> Option<usize> {
-        self.arrays.iter().find(|array| array.grows_with(dim)).map(|array| array.shape[0])
-    }
-
-    /// Sets the rows along a growing dimension.
-    pub(crate) fn set_rows(&mut self, dim: &str, rows: usize) {
-        for array in self.arrays.iter_mut().filter(|array| array.grows_with(dim)) {
-            array.shape[0] = rows;
-        }
-    }
-
-    /// The group's `zarr.json` up to the end of its attributes, without its checksum.
-    pub(crate) fn head(&self) -> Vec<u8> {
-        let place = Value::from(check::UNKNOWN);
-        let attributes = self.attributes.iter().map(|(name, value)| (name.as_str(), value));
-        group_head(attributes.chain([(CHECKSUM, &place)]))
-    }
-
-    /// The group's `zarr.json`, given its head.
-    pub(crate) fn to_json(&self, head: &[u8]) -> Vec<u8> {
-        let mut text = [head, &group_tail(&self.arrays, self.ragged())].concat();
-        check::seal(&mut text, CHECKSUM_PLACE);
-        text
+    /// With attributes as text.
+    ///
+    /// # Errors
+    /// `Layout` for an attribute that is no JSON, of which there is none.
+    pub(crate) fn into_texts(self) -> Result<Group<AttributeTexts>, RecordError> {
+        Ok(Group {
+            attributes: self.attributes.into_iter().map(as_text).collect::<Result<_, _>>()?,
+            arrays: self.arrays,
+        })
     }
 
     /// Reads the group's `zarr.json`.
@@ -155,19 +139,57 @@ impl Group {
             Some((name, array, index.parse().ok()?))
         })
     }
+}
+
+impl<A> Group<A> {
+    /// The name of the ragged group; none without one.
+    pub(crate) fn ragged(&self) -> Option<&str> {
+        self.arrays.iter().find(|array| array.grows_with(BOUNDARY))?.name.strip_suffix("/start")
+    }
+
+    /// Rows along a growing dimension; none if nothing grows along it.
+    pub(crate) fn rows(&self, dim: &str) -> Option<usize> {
+        self.arrays.iter().find(|array| array.grows_with(dim)).map(|array| array.shape[0])
+    }
+
+    /// Sets the rows along a growing dimension.
+    pub(crate) fn set_rows(&mut self, dim: &str, rows: usize) {
+        for array in self.arrays.iter_mut().filter(|array| array.grows_with(dim)) {
+            array.shape[0] = rows;
+        }
+    }
+}
+
+/// Metadata as they are written.
+impl Group<AttributeTexts> {
+    /// The group's `zarr.json`.
+    pub(crate) fn to_json(&self) -> Result<Vec<u8>, RecordError> {
+        let (_, place) = as_text((CHECKSUM.into(), check::UNKNOWN.into()))?;
+        let attributes = self.attributes.iter().map(|(name, text)| (name.as_str(), &**text));
+        let mut text = group_head(attributes.chain([(CHECKSUM, &*place)]));
+        text.extend(group_tail(&self.arrays, self.ragged()));
+        check::seal(&mut text, CHECKSUM_PLACE);
+        Ok(text)
+    }
 
     /// Sets attributes; a null removes one.
     pub(crate) fn patch(&mut self, patch: Attributes) -> Result<(), RecordError> {
         check_attributes(&patch)?;
         for (name, value) in patch {
-            if value.is_null() {
-                self.attributes.remove(&name);
-            } else {
-                self.attributes.insert(name, value);
+            self.attributes.remove(&name);
+            if !value.is_null() {
+                self.attributes.extend([as_text((name, value))?]);
             }
         }
         Ok(())
     }
+}
+
+/// An attribute with its value as text.
+fn as_text((name, value): (String, Value)) -> Result<(String, Box<RawValue>), RecordError> {
+    let text =
+        attribute_text(&value).map_err(|error| RecordError::layout(format!("the attribute `{name}`: {error}")))?;
+    Ok((name, text))
 }
 
 /// The arrays of a ragged group: where the entries of each sample begin, and these.

@@ -18,7 +18,7 @@ use crate::disk::{self, CHECKPOINT, Disk, METADATA, STATE};
 use crate::error::RecordError;
 use crate::event::Event;
 use crate::layout::{BOUNDARY, ENTRY, Layout, START};
-use crate::metadata::Group;
+use crate::metadata::{AttributeTexts, Group};
 use crate::recording::Recording;
 use crate::stream::Stream;
 use crate::zarr;
@@ -33,7 +33,7 @@ pub struct Writer {
     /// Where it is: its name, or beside it before the first flush.
     directory: PathBuf,
     disk: Disk,
-    group: Group,
+    group: Group<AttributeTexts>,
     samples: Stream,
     events: Option<Stream>,
     /// Where the entries of each sample begin, and the entries; none without a ragged group.
@@ -41,8 +41,6 @@ pub struct Writer {
     row_len: usize,
     /// Bytes of the row being appended.
     row: Vec<u8>,
-    /// The metadata up to the end of the attributes, until one is set: of a crowd most of the file.
-    head: Option<Vec<u8>>,
     /// Whether the metadata on disk are behind `group`.
     stale: bool,
     /// An operation failed: what is in memory no longer says what is on disk.
@@ -60,8 +58,6 @@ pub struct Resumed {
     pub checkpoint: Vec<u8>,
     /// Rows that belong to it, and stay.
     pub rows: usize,
-    /// Attributes of the recording.
-    pub attributes: Attributes,
 }
 
 impl Writer {
@@ -128,7 +124,6 @@ impl Writer {
         // Again, now that nobody else writes.
         let mut group = disk::read_group(path)?;
         group.attributes.retain(|name, _| !without.contains(&name.as_str()));
-        let attributes = group.attributes.clone();
         let file = path.join(CHECKPOINT);
         let checkpoint = Checkpoint::decode(&disk::read(&file)?, &file)?;
         let counted = (group.rows("time").unwrap_or(0), group.rows("event").unwrap_or(0));
@@ -142,10 +137,11 @@ impl Writer {
         chunks::verify(&group.arrays, path, &[counts, ragged].concat())?;
         let mut writer = Self::over(disk, path, path.to_path_buf(), group, lock)?;
         writer.cut(&checkpoint, entries)?;
-        Ok(Resumed { writer, checkpoint: checkpoint.state, rows: checkpoint.rows, attributes })
+        Ok(Resumed { writer, checkpoint: checkpoint.state, rows: checkpoint.rows })
     }
 
     fn over(disk: Disk, path: &Path, directory: PathBuf, group: Group, lock: File) -> Result<Self, RecordError> {
+        let group = group.into_texts()?;
         let samples = Stream::new("time", &group.arrays)
             .ok_or_else(|| RecordError::corrupt(&path.join(METADATA), "nothing grows with time"))?;
         let growing = group.arrays.iter().filter(|array| array.grows_with("time"));
@@ -161,7 +157,6 @@ impl Writer {
             row_len: growing.map(ArrayInfo::row_len).sum::<usize>() - 1,
             row: Vec::new(),
             group,
-            head: None,
             stale: true,
             failed: false,
             _lock: lock,
@@ -195,11 +190,6 @@ impl Writer {
     /// Rows appended so far.
     pub fn rows(&self) -> usize {
         self.samples.rows
-    }
-
-    /// Attributes as the next flush writes them, with this crate's own (`record_…`).
-    pub fn attributes(&self) -> &Attributes {
-        &self.group.attributes
     }
 
     /// Appends entries of the sample that is appended next: the numbers of each in the order of the layout, one behind
@@ -292,7 +282,6 @@ impl Writer {
     /// `Layout` if a name is reserved.
     pub fn patch_attributes(&mut self, patch: Attributes) -> Result<(), RecordError> {
         self.stale = true;
-        self.head = None;
         self.group.patch(patch)
     }
 
@@ -344,8 +333,7 @@ impl Writer {
         let texts = texts.chain(subgroup).collect::<Vec<_>>();
         let files = texts.iter().map(|(path, text)| (path.clone(), text.as_slice())).collect::<Vec<_>>();
         self.disk.replace_lazily(&files)?;
-        let head = self.head.get_or_insert_with(|| self.group.head());
-        self.disk.replace(&[(self.directory.join(METADATA), &self.group.to_json(head))])?;
+        self.disk.replace(&[(self.directory.join(METADATA), &self.group.to_json()?)])?;
         self.stale = false;
         Ok(())
     }

@@ -9,6 +9,7 @@ use crate::array::{ArrayInfo, DataType};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 
 /// The `zarr.json` of one array.
@@ -19,10 +20,20 @@ pub(crate) fn array_json(array: &ArrayInfo) -> Vec<u8> {
 /// What a group's file ends with.
 const END: &str = "\n}\n";
 
+/// The value of an attribute as text that is indented as it stands in the `zarr.json` of a recording.
+///
+/// # Errors
+/// None of a value.
+pub(crate) fn attribute_text(value: &Value) -> serde_json::Result<Box<RawValue>> {
+    // Breaks within texts are escaped: those that are left are between lines.
+    RawValue::from_string(serde_json::to_string_pretty(value)?.replace('\n', "\n    "))
+}
+
 /// The `zarr.json` of a whole recording up to the end of its attributes, which stand in alphabetical order, whatever
 /// order they were set in.
-pub(crate) fn group_head<'a>(attributes: impl Iterator<Item = (&'a str, &'a Value)>) -> Vec<u8> {
-    let mut text = json(&ZarrGroup::<_, ()> { attributes: attributes.collect(), ..ZarrGroup::empty() });
+pub(crate) fn group_head<'a>(attributes: impl Iterator<Item = (&'a str, &'a RawValue)>) -> Vec<u8> {
+    let attributes: BTreeMap<_, _> = attributes.collect();
+    let mut text = json(&ZarrGroup::<_, ()> { attributes, ..ZarrGroup::empty() });
     text.truncate(text.len() - END.len());
     text
 }
@@ -32,7 +43,7 @@ pub(crate) fn group_tail(arrays: &[ArrayInfo], subgroup: Option<&str>) -> Vec<u8
     let arrays = arrays.iter().map(|array| (array.name.clone(), Node::Array(Box::new(ZarrArray::of(array)))));
     let subgroup = subgroup.map(|name| (name.to_owned(), Node::Group(ZarrGroup::empty())));
     let metadata = Some(Consolidated::of(arrays.chain(subgroup).collect()));
-    let mut text = json(&ZarrGroup { consolidated_metadata: metadata, ..ZarrGroup::empty() });
+    let mut text = json(&ZarrGroup { consolidated_metadata: metadata, ..ZarrGroup::<NoAttributes, _>::empty() });
     text.drain(..group_head(std::iter::empty()).len());
     text
 }
@@ -44,12 +55,15 @@ pub(crate) fn subgroup_json(name: &str, arrays: &[ArrayInfo]) -> Vec<u8> {
         Some((own.to_owned(), Node::Array(Box::new(ZarrArray::of(array)))))
     };
     let metadata = arrays.iter().filter_map(within).collect();
-    json(&ZarrGroup { consolidated_metadata: Some(Consolidated::of(metadata)), ..ZarrGroup::empty() })
+    json(&ZarrGroup {
+        consolidated_metadata: Some(Consolidated::of(metadata)),
+        ..ZarrGroup::<NoAttributes, _>::empty()
+    })
 }
 
 /// The `zarr.json` of the group that holds the state: it keeps readers from wondering about its files.
 pub(crate) fn state_json() -> Vec<u8> {
-    json(&ZarrGroup::<_, ()>::empty())
+    json(&ZarrGroup::<NoAttributes, ()>::empty())
 }
 
 /// Numbers in Zarr's `bytes`, little-endian.
@@ -111,12 +125,15 @@ pub(crate) struct Consolidated<N> {
     pub(crate) metadata: BTreeMap<String, N>,
 }
 
+/// The attributes of a group that has none.
+type NoAttributes = BTreeMap<String, ()>;
+
 /// What a group holds.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Node<'a> {
+enum Node {
     Array(Box<ZarrArray>),
-    Group(ZarrGroup<BTreeMap<&'a str, &'a Value>, ()>),
+    Group(ZarrGroup<NoAttributes, ()>),
 }
 
 /// An array of consolidated metadata; none of a group.
@@ -205,10 +222,9 @@ impl<N> Consolidated<N> {
     }
 }
 
-impl<'a, N> ZarrGroup<BTreeMap<&'a str, &'a Value>, N> {
+impl<A: Default, N> ZarrGroup<A, N> {
     fn empty() -> Self {
-        let attributes = BTreeMap::new();
-        Self { zarr_format: 3, node_type: "group".into(), attributes, consolidated_metadata: None }
+        Self { zarr_format: 3, node_type: "group".into(), attributes: A::default(), consolidated_metadata: None }
     }
 }
 
@@ -282,7 +298,10 @@ mod tests {
                 consolidated_metadata: Some(metadata),
                 ..ZarrGroup::empty()
             });
-            let parts = [group_head(attributes.into_iter()), group_tail(&arrays, Some("pairs"))].concat();
+            let texts: BTreeMap<_, _> =
+                attributes.into_iter().map(|(name, value)| (name, attribute_text(value).unwrap())).collect();
+            let head = group_head(texts.iter().map(|(name, text)| (*name, &**text)));
+            let parts = [head, group_tail(&arrays, Some("pairs"))].concat();
             assert_eq!(String::from_utf8(parts), String::from_utf8(whole));
         }
     }

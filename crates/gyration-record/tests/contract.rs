@@ -115,7 +115,7 @@ fn a_finished_recording_can_be_continued_with_other_attributes() {
     finished(&whole, 20, 4);
     finished(&path, 9, 4);
     let mut resumed = Writer::resume(&path).unwrap();
-    assert_eq!(resumed.attributes["outcome"], "completed");
+    assert_eq!(Recording::open(&path).unwrap().attributes()["outcome"], "completed");
     resumed.writer.patch_attributes(attributes(json!({"outcome": null}))).unwrap();
     resumed.writer.flush(&checkpoint(9)).unwrap();
     assert_eq!(Recording::open(&path).unwrap().attributes().get("outcome"), None);

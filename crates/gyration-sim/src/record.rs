@@ -160,14 +160,7 @@ impl<'a> Job<'a> {
         if self.follows() {
             return self.follow_from_checkpoint(watch);
         }
-        let recording = Recording::open(path)?;
-        let recorded = recording.attributes().clone();
-        if !self.is_recorded_in(&recorded) {
-            return Err(self.other_scene(path, &recorded));
-        }
-        let is_complete = recorded.contains_key("outcome");
-        // A checkpoint that is damaged is needed no more.
-        if is_complete && !recording.is_ahead_of_its_checkpoint().unwrap_or(false) {
+        if let Some(recorded) = self.finished_attributes(path)? {
             self.tell_checkpoint(&[])?;
             return Ok(RecordingEnd::AlreadyFinished(recorded));
         }
@@ -181,6 +174,18 @@ impl<'a> Job<'a> {
             let sink = RecordingSink::new(self.model.clone(), resumed.writer, hash);
             self.finish(path, simulation, sink, watch)
         })
+    }
+
+    /// The attributes of a recording of this scene that is complete; none if there is something left to do.
+    fn finished_attributes(&self, path: &Path) -> Result<Option<Attributes>, RunError> {
+        let recording = Recording::open(path)?;
+        let recorded = recording.attributes();
+        if !self.is_recorded_in(recorded) {
+            return Err(self.other_scene(path, recorded));
+        }
+        // A checkpoint that is damaged is needed no more.
+        let is_complete = recorded.contains_key("outcome") && !recording.is_ahead_of_its_checkpoint().unwrap_or(false);
+        Ok(is_complete.then(|| recorded.clone()))
     }
 
     /// What must be told of the run before it begins.
