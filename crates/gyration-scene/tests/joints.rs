@@ -66,6 +66,7 @@ fn what_cannot_be_joined_is_refused_with_the_fix() {
         ("drive = { force = §1 }".to_owned(), "drive.force", "driven by a torque", "`torque`"),
         ("drive = §{}".to_owned(), "drive", "no `torque`", "torque = 1"),
         ("drive = { torque = \"2*§speed\" }".to_owned(), "drive.torque", "speed", "Expressions"),
+        ("drive = { torque = §\"2 N\" }".to_owned(), "drive.torque", "this is a torque", "0.1 N m"),
         (
             "drive = { torque = { sum = [{ sine = { amplitude = §\"2 N\", frequency = 5 } }] } }".to_owned(),
             "drive.torque.sum.0.sine.amplitude",
@@ -316,6 +317,18 @@ fn signals_of_a_drive_are_those_of_the_file() {
     assert_eq!(at("{ ramp = { to = 3, duration = \"2 s\" } }", 0.5), 0.75);
     assert_eq!(at("{ table = { file = \"u.csv\" } }", 0.5), 2.0);
     assert_eq!(at("{ sum = [{ constant = { value = 1 } }, { ramp = { from = 2, to = 3, duration = 1 } }] }", 0.5), 3.5);
+}
+
+#[test]
+fn a_torque_may_have_a_unit() {
+    let motor = |written: &str| {
+        let hinge = "between = [\"a\", \"space\"]\nkind = \"hinge\"\naxis = [0, 1, 0]";
+        let text = joint(&format!("{hinge}\ndrive = {{ torque = {written} }}"));
+        let scene = Scene::parse("scene.toml", &text, Path::new(""), &[]).unwrap();
+        assert_resolves_to_itself(&scene);
+        scene.built().model.joints()[0].motor.clone()
+    };
+    assert_eq!(motor("\"-30 N cm\""), motor("-0.3"));
 }
 
 #[test]

@@ -8,6 +8,7 @@ use crate::check::Reporter;
 use crate::file::{DriveLaw, Entry, Joint, JointDrive, Signal};
 use crate::key::Key;
 use crate::quantity::AnyQuantity;
+use crate::units::parse_quantity;
 use gyration::joint::{ANGLE_NAMES, Drive, JointKind, Motor, MotorFault, Stop, StopLaw, WAY_NAMES};
 use gyration::tensor::Mat3;
 use gyration_expression::{Expression, Scratch};
@@ -128,7 +129,18 @@ impl WrittenMotor<'_> {
             DriveLaw::Signal(signal) => return self.signal(signal, &place, drive, context, reporter),
         };
         let constants = constants((key.key("constants"), drive.constants.as_ref()), context, &names, reporter)?;
-        let read = Expression::parse(&text, &names, &constants).map(|expression| expression.holding(&[2]));
+        let read = match (Expression::parse(&text, &names, &constants), parse_quantity(&text)) {
+            // "2 N m" is no product of constants.
+            (Err(_), Ok((number, unit))) => {
+                let [_, push, _] = self.units();
+                if !push.is_of_all(&place, self.kind.word(), reporter) {
+                    return None;
+                }
+                Expression::parse(&format!("{:?}", number * unit.size), &names, &constants)
+            }
+            (read, _) => read,
+        };
+        let read = read.map(|expression| expression.holding(&[2]));
         let expression = accepted(read, (&place, &text), reporter)?;
         let law = Drive::Feedback(Arc::new(expression));
         let motor = Motor { drive: Some(law.clone()), stop: None };
