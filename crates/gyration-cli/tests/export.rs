@@ -196,10 +196,10 @@ fn recordings_of_earlier_and_later_versions_are_told() {
     assert!(said.stderr.contains("no surfaces") && said.stderr.contains("run its scene again"), "{}", said.stderr);
     // Surfaces come from the scene there.
     sandbox.done(&["export", "ball.gyr", "--format", "vtk", "--every", "60"]);
-    fs::write(&metadata, text.replace("\"record_format\": 1", "\"record_format\": 2")).unwrap();
+    fs::write(&metadata, text.replace("\"record_format\": 2", "\"record_format\": 3")).unwrap();
     for format in ["csv", "npz", "vtk", "gltf"] {
         let said = sandbox.refused(3, &["export", "ball.gyr", "--format", format]);
-        assert!(said.stderr.contains("format 2"), "{}", said.stderr);
+        assert!(said.stderr.contains("format 3"), "{}", said.stderr);
     }
     fs::write(&metadata, &text[..text.len() / 2]).unwrap();
     for format in ["csv", "npz", "vtk", "xyz", "gltf"] {

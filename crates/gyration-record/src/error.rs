@@ -42,13 +42,13 @@ pub enum RecordError {
         path: PathBuf,
     },
     /// The recording was written by another version of this format.
-    #[error("{path} has format {found}, this program reads format {supported}")]
+    #[error("{path} has format {found}, this program reads formats to {supported}")]
     Version {
         /// The recording.
         path: PathBuf,
         /// Its format.
         found: u64,
-        /// The format of this program.
+        /// The last format that this program reads.
         supported: u64,
     },
     /// Another process is writing this recording.

@@ -21,6 +21,7 @@
 mod array;
 mod checkpoint;
 mod chunks;
+mod columns;
 mod disk;
 mod error;
 mod event;

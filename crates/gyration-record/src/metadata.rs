@@ -2,15 +2,16 @@
 //!
 //! The group's `zarr.json` holds the attributes and, as consolidated metadata, those of every array; it is replaced as
 //! one file, so that a reader sees all arrays at one length. What this crate needs beside Zarr stands in the group's
-//! attributes: `record_format`, `record_arrays` (the growing arrays in the order of a row), `record_columns` (`NAME =
-//! ARRAY[INDEX]`, in the order of the CSV) and `record_checksum` (CRC-32C of this file with zeros in its place). Keys
-//! are written in a fixed order. Recordings of earlier versions have no checksum.
+//! attributes: `record_format`, `record_arrays` (the growing arrays in the order of a row), `record_columns` (see
+//! `columns`) and `record_checksum` (CRC-32C of this file with zeros in its place). Keys are written in a fixed order.
+//! Recordings of earlier versions have no checksum.
 
 use crate::Attributes;
 use crate::array::{ArrayInfo, DataType};
+use crate::columns::{self, Column, ColumnFault};
 use crate::error::RecordError;
 use crate::layout::{BOUNDARY, ENTRY, Layout, Ragged, RaggedArray, START};
-use crate::names::{METADATA, is_column, is_name, is_path, is_word};
+use crate::names::{METADATA, is_name, is_path, is_word};
 use crate::zarr::{Marker, ZarrGroup, array_of, attribute_text, group_head, group_tail};
 use gyration_files::check;
 use serde_json::Value;
@@ -18,8 +19,10 @@ use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The version of the format that this crate writes and reads.
-pub(crate) const FORMAT: u64 = 1;
+/// The version of the format that this crate writes; it reads those before it too. In the first all columns are texts.
+pub(crate) const FORMAT: u64 = 2;
+/// The attribute with the columns of the CSV.
+const COLUMNS: &str = "record_columns";
 /// Rows in a chunk of the events, for each of those whom they may befall.
 const EVENT_CHUNK_ROWS: usize = 256;
 /// Rows in a chunk of the events at most.
@@ -45,8 +48,8 @@ impl Group {
     /// The metadata of a new recording.
     pub(crate) fn new(layout: &Layout, mut attributes: Attributes) -> Result<Self, RecordError> {
         check_attributes(&attributes)?;
-        let text = |(name, array, index): (&str, &str, usize)| Value::from(format!("{name} = {array}[{index}]"));
-        let columns = layout.columns()?.into_iter().map(text).collect::<Vec<_>>();
+        let columns = columns::written(&layout.columns()?, layout)
+            .map_err(|error| RecordError::layout(format!("the columns: {error}")))?;
         let mut arrays = vec![ArrayInfo::growing("time", "time", layout.chunk_rows, "s", "time")];
         arrays.extend(layout.arrays.iter().map(|spec| ArrayInfo::of(spec, Some(("time", layout.chunk_rows)))));
         if !layout.event_kinds.is_empty() {
@@ -69,7 +72,7 @@ impl Group {
         arrays.extend(layout.labels.iter().map(|(dim, labels)| ArrayInfo::labels(dim, labels.len())));
         attributes.insert("record_format".into(), FORMAT.into());
         attributes.insert("record_arrays".into(), order.into());
-        attributes.insert("record_columns".into(), columns.into());
+        attributes.insert(COLUMNS.into(), columns);
         Ok(Self { attributes, arrays })
     }
 
@@ -91,7 +94,7 @@ impl Group {
         let mut marker: Marker = serde_json::from_slice(bytes).map_err(|e| no(format!("zarr.json: {e}")))?;
         match marker.attributes.get("record_format").and_then(Value::as_u64) {
             None => return Err(no("zarr.json has no attribute `record_format`".into())),
-            Some(FORMAT) => {}
+            Some(1..=FORMAT) => {}
             Some(found) => return Err(RecordError::Version { path: path.to_path_buf(), found, supported: FORMAT }),
         }
         let group: ZarrGroup = serde_json::from_slice(bytes).map_err(|e| no(format!("zarr.json: {e}")))?;
@@ -130,14 +133,9 @@ impl Group {
         Ok(group)
     }
 
-    /// The CSV columns: name, array, place in a row.
-    pub(crate) fn columns(&self) -> impl Iterator<Item = (&str, &str, usize)> {
-        let texts = self.attributes.get("record_columns").and_then(Value::as_array).into_iter().flatten();
-        texts.filter_map(Value::as_str).filter_map(|text| {
-            let (name, place) = text.split_once(" = ")?;
-            let (array, index) = place.strip_suffix(']')?.split_once('[')?;
-            Some((name, array, index.parse().ok()?))
-        })
+    /// The CSV columns.
+    pub(crate) fn columns(&self) -> Vec<Column> {
+        columns::read(self.attributes.get(COLUMNS), &self.arrays)
     }
 }
 
@@ -235,8 +233,8 @@ fn check_names(group: &Group) -> Result<(), String> {
             return refuse("the kind of event", kind, "letters, digits and _");
         }
     }
-    match group.columns().find(|(name, _, _)| !is_column(name)) {
-        Some((name, _, _)) => refuse("the column", name, "letters, digits, _, - and points"),
-        None => Ok(()),
-    }
+    columns::check(group.attributes.get(COLUMNS), &group.arrays).or_else(|fault| match fault {
+        ColumnFault::Name(name) => refuse("the column", &name, "letters, digits, _, - and points"),
+        ColumnFault::TooMany => Err("zarr.json names more columns than a row has numbers".into()),
+    })
 }

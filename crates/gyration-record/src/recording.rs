@@ -8,6 +8,7 @@ use crate::Attributes;
 use crate::array::{ArrayInfo, DataType};
 use crate::checkpoint::Checkpoint;
 use crate::chunks::{LastChunks, read_labels};
+use crate::columns::Column;
 use crate::disk;
 use crate::error::RecordError;
 use crate::event::Event;
@@ -16,13 +17,15 @@ use crate::memory::{Memory, Rows};
 use crate::metadata::Group;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// An open recording.
 #[derive(Debug, Clone)]
 pub struct Recording {
     path: PathBuf,
     group: Group,
+    /// The columns of the CSV, once they are asked for.
+    columns: OnceLock<Vec<Column>>,
     source: Source,
 }
 
@@ -50,12 +53,14 @@ impl Recording {
     pub fn open(path: &Path) -> Result<Self, RecordError> {
         // Of the folder first: one that takes its place while this reads is another one.
         let chunks = LastChunks::of(path);
-        Ok(Self { path: path.to_path_buf(), group: disk::read_group(path)?, source: Source::Disk(chunks) })
+        let group = disk::read_group(path)?;
+        Ok(Self { path: path.to_path_buf(), group, columns: OnceLock::new(), source: Source::Disk(chunks) })
     }
 
     /// The recording at a path of which the metadata are known, while nobody else writes there.
     pub(crate) fn of_group(path: &Path, group: Group) -> Self {
-        Self { path: path.to_path_buf(), group, source: Source::Disk(LastChunks::of(path)) }
+        let source = Source::Disk(LastChunks::of(path));
+        Self { path: path.to_path_buf(), group, columns: OnceLock::new(), source }
     }
 
     /// The recording that a disk would hold of some rows, without entries of samples; `name` stands in errors. It has
@@ -70,7 +75,8 @@ impl Recording {
         rows: Arc<Rows>,
     ) -> Result<Self, RecordError> {
         let (memory, group) = Memory::new(layout, attributes, rows)?;
-        Ok(Self { path: name.to_path_buf(), group, source: Source::Memory(Arc::new(memory)) })
+        let source = Source::Memory(Arc::new(memory));
+        Ok(Self { path: name.to_path_buf(), group, columns: OnceLock::new(), source })
     }
 
     /// Whether two are the same recording, which may have grown in between, and not one in the place of another.
@@ -212,7 +218,7 @@ impl Recording {
 
     /// Names of the columns in the order of the CSV, which puts `t` before them.
     pub fn columns(&self) -> impl Iterator<Item = &str> {
-        self.group.columns().map(|(name, _, _)| name)
+        self.column_places().map(|(name, _, _)| name)
     }
 
     /// Reads a column: one component of an array, such as `die.x`, or `t`.
@@ -220,7 +226,7 @@ impl Recording {
     /// # Errors
     /// `NoSuchColumn`; those of [`read_rows`](Recording::read_rows).
     pub fn column(&self, name: &str) -> Result<Vec<f64>, RecordError> {
-        let found = self.group.columns().find(|(column, _, _)| *column == name);
+        let found = self.column_places().find(|(column, _, _)| *column == name);
         let (_, array, index) = match found {
             Some(place) => place,
             None if name == "t" => ("t", "time", 0),
@@ -276,7 +282,8 @@ impl Recording {
 
     /// Name, array and place in its row of each column, in the order of the CSV.
     pub fn column_places(&self) -> impl Iterator<Item = (&str, &str, usize)> {
-        self.group.columns()
+        let columns = self.columns.get_or_init(|| self.group.columns());
+        columns.iter().map(|Column { name, array, index }| (name.as_str(), array.as_str(), *index))
     }
 
     /// The bytes of rows of an array, in the array's own type.

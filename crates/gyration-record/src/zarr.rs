@@ -20,13 +20,37 @@ pub(crate) fn array_json(array: &ArrayInfo) -> Vec<u8> {
 /// What a group's file ends with.
 const END: &str = "\n}\n";
 
+/// How far what an attribute holds stands from the left.
+const INDENT: usize = 4;
+/// What is longer than that stands on several lines.
+const LINE: usize = 120;
+
 /// The value of an attribute as text that is indented as it stands in the `zarr.json` of a recording.
 ///
 /// # Errors
 /// None of a value.
 pub(crate) fn attribute_text(value: &Value) -> serde_json::Result<Box<RawValue>> {
-    // Breaks within texts are escaped: those that are left are between lines.
-    RawValue::from_string(serde_json::to_string_pretty(value)?.replace('\n', "\n    "))
+    RawValue::from_string(indented(value, INDENT))
+}
+
+/// A value as text, lists and objects that are short on one line.
+fn indented(value: &Value, indent: usize) -> String {
+    let within = indent + 2;
+    let (parts, [open, close]): (Vec<String>, _) = match value {
+        Value::Array(items) => (items.iter().map(|item| indented(item, within)).collect(), ["[", "]"]),
+        Value::Object(items) => {
+            let entry =
+                |(key, item): (&String, &Value)| format!("{}: {}", Value::from(key.as_str()), indented(item, within));
+            (items.iter().map(entry).collect(), ["{", "}"])
+        }
+        scalar => return scalar.to_string(),
+    };
+    let length = parts.iter().map(|part| part.len() + 2).sum::<usize>();
+    if indent + length <= LINE && !parts.iter().any(|part| part.contains('\n')) {
+        return format!("{open}{}{close}", parts.join(", "));
+    }
+    let [line, last] = [within, indent].map(|indent| format!("\n{}", " ".repeat(indent)));
+    format!("{open}{line}{}{last}{close}", parts.join(&format!(",{line}")))
 }
 
 /// The `zarr.json` of a whole recording up to the end of its attributes, which stand in alphabetical order, whatever
@@ -302,7 +326,8 @@ mod tests {
                 attributes.into_iter().map(|(name, value)| (name, attribute_text(value).unwrap())).collect();
             let head = group_head(texts.iter().map(|(name, text)| (*name, &**text)));
             let parts = [head, group_tail(&arrays, Some("pairs"))].concat();
-            assert_eq!(String::from_utf8(parts), String::from_utf8(whole));
+            let value = |text: &[u8]| serde_json::from_slice::<Value>(text).unwrap();
+            assert_eq!(value(&parts), value(&whole), "{}", String::from_utf8_lossy(&parts));
         }
     }
 

@@ -180,8 +180,8 @@ fn damage_is_told_with_the_file() {
     fs::write(path.join("state/checkpoint"), b"GYRCKPT1").unwrap();
     assert!(matches!(Writer::resume(&path), Err(RecordError::Corrupt { path: p, .. }) if p.ends_with("checkpoint")));
     let text = fs::read_to_string(path.join("zarr.json")).unwrap();
-    fs::write(path.join("zarr.json"), text.replace("\"record_format\": 1", "\"record_format\": 2")).unwrap();
-    assert!(matches!(Recording::open(&path), Err(RecordError::Version { found: 2, supported: 1, .. })));
+    fs::write(path.join("zarr.json"), text.replace("\"record_format\": 2", "\"record_format\": 3")).unwrap();
+    assert!(matches!(Recording::open(&path), Err(RecordError::Version { found: 3, supported: 2, .. })));
     fs::write(path.join("zarr.json"), &text[..text.len() / 2]).unwrap();
     assert!(matches!(Recording::open(&path), Err(RecordError::NotARecording { .. })));
 }
@@ -210,7 +210,8 @@ fn names_that_no_writer_gives_are_refused_by_whoever_opens_a_recording() {
     refused("\"mass\"", "\"\\\"><script>\"", "the array `\\\"><script>`");
     refused("\"row\"", "\"/tmp\"", "the dimension `/tmp`");
     refused("touch part rest", "touch <b> rest", "the kind of event `<b>`");
-    refused("die.x = ", "die\\u001b = ", "the column `die\\u{1b}`");
+    refused("[\"die\"]", "[\"die\\u001b\"]", "the column `die\\u{1b}`");
+    refused("\"x = ", "\"x, = ", "the column `x,`");
     assert_eq!(tree(&victim), before);
     fs::write(path.join("zarr.json"), text).unwrap();
     Writer::resume(&path).unwrap();

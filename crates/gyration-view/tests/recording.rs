@@ -131,9 +131,9 @@ fn what_is_no_recording_or_was_torn_is_an_error_in_words() {
     assert!(String::from_utf8_lossy(&body).contains("is damaged: 4 bytes where"), "{}", String::from_utf8_lossy(&body));
     let group = recording.path().join("zarr.json");
     let text = std::fs::read_to_string(&group).unwrap();
-    std::fs::write(&group, text.replacen("\"record_format\": 1", "\"record_format\": 99", 1)).unwrap();
+    std::fs::write(&group, text.replacen("\"record_format\": 2", "\"record_format\": 99", 1)).unwrap();
     assert!(
-        problem(recording.path()).contains("has format 99, this program reads format 1"),
+        problem(recording.path()).contains("has format 99, this program reads formats to 2"),
         "{}",
         problem(recording.path())
     );
