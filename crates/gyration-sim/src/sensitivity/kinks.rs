@@ -39,6 +39,11 @@ pub(super) struct Kinks {
 }
 
 impl Kinks {
+    /// Whether any kink moves with the number.
+    pub fn move_any(&self) -> bool {
+        self.kinks.iter().any(|kink| kink.moves != 0.0)
+    }
+
     /// Those of a run to its end [s].
     pub fn of(model: &Model, end: f64, variation: &mut SceneVariation) -> Result<Self, NoDerivative> {
         let times = kinks(model, end);

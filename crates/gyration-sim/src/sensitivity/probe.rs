@@ -5,6 +5,7 @@ use crate::adapter::{ModelSystem, Tolerance};
 use crate::outcome::Stop;
 use crate::variation::NoDerivative;
 use gyration::Inadmissible;
+use gyration::extended::Extended;
 use gyration::model::Model;
 use gyration::state::State;
 use gyration_ode::System as _;
@@ -20,6 +21,9 @@ const FINER: f64 = 8.0;
 const MOST_PROBES: i32 = 8;
 /// Differences agree whose error is no larger a part of them.
 const AGREE: f64 = 1e-8;
+/// Three places, in steps, at which what a stencil leaves of a parabola is looked at: rounding alone, if the steps are
+/// short enough.
+const NOISY: [f64; 3] = [1.0, 1.7, 2.9];
 
 /// Four places of a line, in steps, and what weighs them in a difference over one step and in one over two.
 struct Stencil {
@@ -45,8 +49,14 @@ struct Slope {
 }
 
 impl Stencil {
-    /// The slopes over a step of either sign of what is evaluated at multiples of a direction.
-    fn slopes<E>(&self, step: f64, evaluate: &mut impl FnMut(f64) -> Result<Vec<f64>, E>) -> Result<Vec<Slope>, E> {
+    /// The slopes over a step of either sign of what is evaluated at multiples of a direction, and rounded by so much
+    /// where that is known.
+    fn slopes<E>(
+        &self,
+        step: f64,
+        noise: &[f64],
+        evaluate: &mut impl FnMut(f64) -> Result<Vec<f64>, E>,
+    ) -> Result<Vec<Slope>, E> {
         let [a, b, c, d] = self.places.map(|place| place * step);
         let points = [evaluate(a)?, evaluate(b)?, evaluate(c)?, evaluate(d)?];
         let slope = |i: usize| {
@@ -55,14 +65,31 @@ impl Stencil {
             let (near, far) = (over(&self.near), over(&self.far));
             let value = (4.0 * near - far) / 3.0;
             let most = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-            let (bend, rounding) = ((near - far).abs(), f64::EPSILON * most / step.abs());
+            let noise = noise.get(i).map_or(f64::EPSILON * most, |noise| noise.max(f64::EPSILON * most));
+            let (bend, rounding) = ((near - far).abs(), noise / step.abs());
             let part = libm::pow(bend / value.abs(), self.order - 1.0);
             let error = bend.min(bend * part).max(0.0) + rounding;
             // What is no number is none over any step.
-            Slope { value, error, agrees: bend.is_nan() || bend <= 4.0 * rounding || error <= AGREE * value.abs() }
+            let agrees = bend.is_nan() || bend <= 4.0 * rounding || error <= AGREE * value.abs();
+            Slope { value, error, agrees }
         };
         Ok((0..points[0].len()).map(slope).collect())
     }
+}
+
+/// By how much what is evaluated within a step, far below all that it could change in, is rounded: a gap of two bodies
+/// by parts of their distance, not of its own. What is not known there tells nothing.
+fn noise<E>(step: f64, evaluate: &mut impl FnMut(f64) -> Result<Vec<f64>, E>) -> Vec<f64> {
+    let mut most: Vec<f64> = Vec::new();
+    for place in NOISY {
+        let points = [-2.0, -1.0, 1.0, 2.0].map(|k| evaluate(k * place * step));
+        let [Ok(a), Ok(b), Ok(c), Ok(d)] = points else { return Vec::new() };
+        most.resize(a.len(), 0.0);
+        // Nothing of a parabola, and √10 deviations of the values.
+        let left = |i: usize| (d[i] - 2.0 * c[i] + 2.0 * b[i] - a[i]).abs() / 10.0_f64.sqrt();
+        most.iter_mut().enumerate().for_each(|(i, most)| *most = most.max(left(i)));
+    }
+    most
 }
 
 /// The derivative of something along a direction of the state, by differences; `evaluate` gives it at a multiple of the
@@ -70,7 +97,7 @@ impl Stencil {
 ///
 /// Scales know gaps to contacts, and neither the way to a limit of a joint nor the width of an expression. So the step
 /// is reduced until differences over it and twice as far agree, or what is evaluated is known there at all, be it on
-/// one side: of each number that of the least error is taken, be it curvature or rounding.
+/// one side: of each number that of the least error is taken, be it curvature or rounding, which is measured.
 pub(super) fn along<E>(
     direction: &[f64],
     scales: &[f64],
@@ -80,14 +107,14 @@ pub(super) fn along<E>(
     if size == 0.0 {
         return Ok(vec![0.0; evaluate(0.0)?.len()]);
     }
-    let mut best: Vec<Slope> = Vec::new();
+    let (mut best, mut rounded): (Vec<Slope>, Vec<f64>) = (Vec::new(), Vec::new());
     for probe in 0.. {
         let step = PROBE / size * FINER.powi(-probe);
         let is_last = probe + 1 == MOST_PROBES;
         let found = CENTRAL
-            .slopes(step, &mut evaluate)
-            .or_else(|_| AHEAD.slopes(step, &mut evaluate))
-            .or_else(|_| AHEAD.slopes(-step, &mut evaluate));
+            .slopes(step, &rounded, &mut evaluate)
+            .or_else(|_| AHEAD.slopes(step, &rounded, &mut evaluate))
+            .or_else(|_| AHEAD.slopes(-step, &rounded, &mut evaluate));
         let found = match found {
             Ok(found) => found,
             // A finer one that is not known adds nothing to what is.
@@ -98,6 +125,10 @@ pub(super) fn along<E>(
         let do_agree = found.iter().all(|slope| slope.agrees);
         if best.is_empty() {
             best = found;
+            if !do_agree && !is_last {
+                rounded = noise(PROBE / size * FINER.powi(1 - MOST_PROBES), &mut evaluate);
+                best.iter_mut().zip(&rounded).for_each(|(slope, noise)| slope.error += noise / step);
+            }
         } else {
             for (best, found) in best.iter_mut().zip(found) {
                 if found.error < best.error {
@@ -105,11 +136,22 @@ pub(super) fn along<E>(
                 }
             }
         }
-        if do_agree || is_last {
+        if is_last || do_agree {
             break;
         }
     }
     Ok(best.into_iter().map(|slope| slope.value).collect())
+}
+
+/// The numbers of a state that has gone a part of a direction, to twice the digits.
+pub(super) fn gone(state: &State, direction: &[f64], part: f64) -> [Vec<f64>; 2] {
+    let numbers = state.bodies.iter().zip(direction).enumerate();
+    let sums = numbers.map(|(i, (y, s))| {
+        let own = Extended { high: *y, low: state.low.get(i).copied().unwrap_or(0.0) };
+        own + Extended::from(part * s)
+    });
+    let (high, low) = sums.map(|sum| (sum.high, sum.low)).unzip();
+    [high, low]
 }
 
 /// The scales of state and works.

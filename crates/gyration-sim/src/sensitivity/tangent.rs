@@ -16,6 +16,7 @@ use super::probe::{SCALES, fill_scales, meaningless, reason};
 use super::quantity::Quantities;
 use super::stage_equations::STAGES;
 use super::switches::Switching;
+use super::works::LastPowers;
 use super::{GROWN, Meaningless, SensitivityCounts};
 use crate::adapter::ModelSystem;
 use crate::outcome::Stop;
@@ -95,6 +96,7 @@ pub(super) struct Tangent<'a> {
     /// rtol of the run.
     rtol: f64,
     follows_works: bool,
+    pub(super) last_powers: LastPowers,
     /// f at the node at hand.
     base: BaseRates,
     pub(super) history: StepHistory,
@@ -178,6 +180,7 @@ impl<'a> Tangent<'a> {
             tolerance: SHARE * plan.tolerance.rtol,
             rtol: plan.tolerance.rtol,
             follows_works: false,
+            last_powers: LastPowers::default(),
             base: BaseRates::default(),
             history: StepHistory::default(),
             switching: Switching::default(),
@@ -331,16 +334,22 @@ impl<'a> Tangent<'a> {
         let Some(step) = self.rule.step(&nodes.sets, &self.state, size, &nodes.stages) else {
             return Ok(CHANGE.0 * size);
         };
-        let Some(powers) = (if self.follows_works { self.powers(&step, &nodes)? } else { Some(Vec::new()) }) else {
+        let slopes = if self.follows_works { self.powers(&step, &nodes, size)? } else { None };
+        if self.follows_works && slopes.is_none() {
             return Ok(CHANGE.0 * size);
-        };
-        let error = self.error(&step, &powers, size) / self.tolerance;
+        }
+        let powers = slopes.as_ref().map_or(&[][..], |slopes| &slopes.nodes);
+        let error = self.error(&step, powers, size) / self.tolerance;
         if error > 1.0 || error.is_nan() {
             let factor = if error.is_finite() { 0.9 * libm::pow(error, -0.1) } else { 0.0 };
             return Ok(size * factor.clamp(CHANGE.0, 0.9));
         }
-        for (node, powers) in powers.iter().enumerate() {
-            self.works += powers * (size * self.rule.weight(node));
+        if let Some(slopes) = slopes {
+            for (node, powers) in slopes.nodes.iter().enumerate() {
+                self.works += powers * (size * self.rule.weight(node));
+            }
+            self.works += &slopes.shifted;
+            self.last_powers.take(end, slopes);
         }
         self.state = step.values.into_iter().next_back().unwrap_or_default();
         self.time = end;
