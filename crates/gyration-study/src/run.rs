@@ -110,7 +110,7 @@ impl Study {
     fn simulate(&self, scene: &Scene, recording: Option<&Path>) -> Result<Option<Ended>, StudyError> {
         let Built { model, state, .. } = scene.built();
         let mut plan: RunPlan = scene.built().into();
-        if recording.is_none() && !self.needs_samples() {
+        if recording.is_none() && !self.needs_samples() && !plan.extras.have_intervals() {
             plan.sample = plan.end;
         }
         plan.pairs &= recording.is_some();

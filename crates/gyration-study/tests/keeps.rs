@@ -89,6 +89,20 @@ fn columns_at_events_are_those_of_their_very_time() {
     assert_eq!(list("all"), [3.0 * 0.3, 1.0]);
 }
 
+/// Symptom: where nothing else asked for samples, the last interval was the whole run: 3.92 N s for 0.08.
+#[test]
+fn what_belongs_to_an_interval_is_that_of_the_last_sample() {
+    let table = "\"world.gravity\" = [0, 0, -9.81]\n\"time.sample\" = 0.1\n\"body.brick.position\" = [0, 0, 0.3]\n\
+                 \"support\" = [{ name = \"t\", plane = {} }]\n\
+                 \"contact\" = [{ support = \"t\", repulsion = { alpha = 1e3, nu = 4, d0 = 1e-2 } }]\n\
+                 \"record.quantities\" = [\"impulse\", \"peak_force\"]";
+    let last = "push = { last = \"brick.impulse_z\" }\npeak = { last = \"brick.peak_force\" }\n";
+    let (alone, sampled) = (kept(table, last), kept(table, &format!("{last}mean = {{ mean = \"brick.z\" }}")));
+    assert_eq!((&alone["push"], &alone["peak"]), (&sampled["push"], &sampled["peak"]));
+    // Some of the weight times the interval, not of the run.
+    assert!(alone["push"].number().unwrap() < 0.5 * 9.81 * 25.2, "{alone:?}");
+}
+
 #[test]
 fn the_face_that_looks_down_is_told_by_its_axis() {
     let turned = |axis: &str, angle: &str| {

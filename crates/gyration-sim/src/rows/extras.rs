@@ -41,6 +41,11 @@ impl Extras {
         self.asks_for(Recorded::PeakForce)
     }
 
+    /// Whether quantities are asked for that belong to the interval since the last sample.
+    pub fn have_intervals(&self) -> bool {
+        self.need(Source::Interval)
+    }
+
     /// Whether something is asked for that is made of this.
     pub(super) fn need(&self, source: Source) -> bool {
         extra_fields().any(|extra| extra.source == source && self.asks_for(extra.word))
