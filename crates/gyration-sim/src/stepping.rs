@@ -89,12 +89,13 @@ pub enum Refusal {
     /// A body cannot move like that.
     #[error(
         "body {body:?} cannot have this {quantity}: what it is and what it is kept to leave out {off:.1e} of it; give \
-         a rigid body a rotation P with Pdot = [omega]x P, and what joints, pins and incompressibility allow"
+         a rigid body a rotation P with Pdot = [omega]x P, a body that keeps its volume det P = det G, and what joints, \
+         pins and prescribed contractions allow"
     )]
     Impossible {
         /// The body.
         body: String,
-        /// `position`, `P`, `velocity` or `Pdot`.
+        /// `position`, `P`, `velocity`, `Pdot` or `G`.
         quantity: &'static str,
         /// What is left of it, in its unit.
         off: f64,

@@ -1,9 +1,10 @@
 //! Runs that their caller steps: what is applied acts as what a scene gives, the ledger closes, a loop can be closed.
 
+use gyration::kinematics::{Placement, Velocity};
 use gyration::load::Applied;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::Scene;
-use gyration_sim::{MemorySink, Monitor, Progress, Reason, Refusal, Simulation, SteppedRun, Unwatched};
+use gyration_sim::{BodyStart, MemorySink, Monitor, Progress, Reason, Refusal, Simulation, SteppedRun, Unwatched};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -198,6 +199,31 @@ fn what_makes_no_sense_is_refused() {
     let late = run.begun_anew(1e17, &[]).unwrap().err();
     assert!(matches!(late, Some(Refusal::Time { time: 1e17, .. })), "{late:?}");
     assert!(run.begun_anew(1e9, &[]).unwrap().is_ok());
+}
+
+/// Symptom: G was projected to what the body can have, and not a word was said.
+#[test]
+fn a_contraction_that_a_body_cannot_have_is_refused() {
+    let free = "contractile = { material = { mooney_rivlin = { c1 = 3e3, c2 = 1e3 } }, contraction_viscosity = 50 }";
+    let run = stepper(&tumbling(free));
+    let begun = |gradient: Mat3, contraction: Option<Mat3>| {
+        let placement = Placement { gradient, ..run.motion(0).placement };
+        let velocity = Velocity { velocity: Vec3::zeros(), gradient_rate: Mat3::zeros() };
+        run.begun_anew(0.0, &[BodyStart { body: 0, placement, velocity, contraction }]).unwrap()
+    };
+    let one = Mat3::identity();
+    for (gradient, contraction) in [
+        (one, Some(2.0 * one)),
+        (one, Some(-one)),
+        (one, Some(Mat3::from_diagonal(&Vec3::new(2.0, 1.0, 1.0)))),
+        (2.0 * one, None),
+    ] {
+        let refused = begun(gradient, contraction).err();
+        assert!(matches!(&refused, Some(Refusal::Impossible { quantity: "G", .. })), "{refused:?}");
+    }
+    let stretched = Mat3::from_diagonal(&Vec3::new(2.0, 1.0, 0.5));
+    let anew = begun(2.0 * one, Some(2.0 * stretched)).unwrap();
+    assert!((anew.state().contraction(anew.model(), 0).unwrap() - 2.0 * stretched).norm() < 1e-14);
 }
 
 #[test]

@@ -62,22 +62,28 @@ impl SteppedRun {
         }
         let mut state = State { time, works: vec![0.0; model.works().len()], ..self.state() };
         let mut asked: Vec<BodyMotion> = (0..model.bodies.len()).map(|body| state.motion(model, body)).collect();
+        let mut contractions: Vec<Option<Mat3>> =
+            (0..model.bodies.len()).map(|body| state.contraction(model, body)).collect();
         for start in starts {
             let name = self.named(start.body)?;
             if !(time.is_finite() && is_finite(start)) {
                 return Err(Refusal::NotFinite { body: name });
             }
             asked[start.body] = BodyMotion { placement: start.placement, velocity: start.velocity };
-            let contraction = start.contraction.or_else(|| state.contraction(model, start.body));
-            state.put(model, start.body, &start.of_kind(&model.bodies[start.body].kind, contraction));
+            contractions[start.body] = start.contraction.or(contractions[start.body]);
+            state.put(model, start.body, &start.of_kind(&model.bodies[start.body].kind, contractions[start.body]));
         }
         let State { bodies, low, works, .. } = &mut state;
         project(model, &mut Workspace::default(), time, ExtendedMut { high: bodies, low }, works);
         state.works.fill(0.0);
-        let found = |(body, asked): (usize, &BodyMotion)| {
-            left_out(model, body, asked, &state.motion(model, body), self.simulation.speed(body))
+        let found = |(body, (asked, contraction)): (usize, (&BodyMotion, &Option<Mat3>))| {
+            left_out(model, body, asked, &state.motion(model, body), self.simulation.speed(body)).or_else(|| {
+                contraction
+                    .and_then(|asked| contraction_left_out(model, body, &asked, &state.contraction(model, body)?))
+            })
         };
-        asked.iter().enumerate().find_map(found).map_or(Ok(state.clone()), Err)
+        let all = asked.iter().zip(&contractions).enumerate();
+        all.into_iter().find_map(found).map_or(Ok(state.clone()), Err)
     }
 }
 
@@ -106,6 +112,13 @@ fn is_finite(start: &BodyStart) -> bool {
     let vectors = [placement.position, velocity.velocity];
     let matrices = [placement.gradient, velocity.gradient_rate, contraction.unwrap_or_default()];
     vectors.iter().flatten().chain(matrices.iter().flatten()).all(|number| number.is_finite())
+}
+
+/// The refusal of a contraction that a body cannot have; none if it has it to rounding.
+fn contraction_left_out(model: &Model, body: usize, asked: &Mat3, found: &Mat3) -> Option<Refusal> {
+    let off = (asked - found).norm();
+    let impossible = || Refusal::Impossible { body: model.name(body).to_owned(), quantity: "G", off };
+    (off.is_nan() || off > ROUNDING * asked.norm()).then(impossible)
 }
 
 /// The refusal of a motion that a body cannot have; none if it has it to rounding.
