@@ -24,11 +24,13 @@ const TINY: f64 = 1e-6;
 const HELD: f64 = 0.1;
 /// Pairs whose energy is looked at.
 const MOST_PAIRS: usize = 10_000;
+/// Fewer of them are all looked at, however far apart they are.
+const FEW_PAIRS: usize = 300;
 
 /// What must be told of the contact that stores most.
 pub(super) fn warning(model: &Model, start: &State) -> Option<String> {
-    let near = beside_one_another(model, start);
-    let pairs = near.iter().flat_map(|two| two.pairs(model).map(move |pair| (two, pair)));
+    let meeting = meeting(model, start);
+    let pairs = meeting.iter().flat_map(|two| two.pairs(model).map(move |pair| (two, pair)));
     let pairs = pairs.filter_map(|(two, pair)| Near::of_pair(model, start, two, &pair));
     let bodies = (0..model.bodies.len()).filter(|body| model.contacts_of(*body).next().is_some()).take(MOST_PAIRS);
     let planes = bodies.flat_map(|index| {
@@ -78,11 +80,13 @@ fn forces(model: &Model, start: &State) -> Vec<f64> {
     model.bodies.iter().enumerate().map(force).collect()
 }
 
-/// The bodies that meet and are not farther apart than they are large, and some others; of very many some.
-fn beside_one_another(model: &Model, start: &State) -> Vec<Joined> {
-    if model.images().is_some() {
-        let rules = 0..model.rules().all().len();
-        return rules.flat_map(|rule| Joined::of_rule(model, rule)).take(MOST_PAIRS).collect();
+/// The bodies that meet; of many those that are not farther apart than they are large, and some others.
+fn meeting(model: &Model, start: &State) -> Vec<Joined> {
+    let all = (0..model.rules().all().len()).flat_map(|rule| Joined::of_rule(model, rule));
+    let most = if model.images().is_some() { MOST_PAIRS } else { FEW_PAIRS };
+    let found: Vec<Joined> = all.take(most).collect();
+    if model.images().is_some() || found.len() < FEW_PAIRS {
+        return found;
     }
     let sphere = |(index, body): (usize, &Arc<Body>)| {
         let Some(radius) = body.solid.radius() else { return Sphere::NOWHERE };
@@ -123,31 +127,20 @@ impl Near {
         self.bodies.iter().flatten().all(|body| left[*body] < HELD * force)
     }
 
-    /// A pair at the start, unless its balls are farther apart than they are large.
+    /// A pair at the start.
     fn of_pair(model: &Model, start: &State, two: &Joined, pair: &Pair) -> Option<Self> {
         let bodies: [&Body; 2] = two.bodies.map(|body| &*model.bodies[body]);
         let motions = two.motions(model, start);
-        let between = motions[0].placement.position - motions[1].placement.position;
-        let reach = |end: usize| {
-            let surface = bodies[end].solid.part(pair.parts[end]);
-            surface.fastest_point(&Vec3::zeros(), &motions[end].placement.gradient)
-        };
-        if between.norm() > 2.0 * (reach(0) + reach(1)) {
-            return None;
-        }
         let loads = stored((&pair.form, pair.parts), bodies, &motions)?;
         let [one, other] = two.bodies.map(|body| model.name(body));
         let names = format!("\"{one}\" and \"{other}\"");
         Some(Self { names, bodies: two.bodies.map(Some), gap: loads.gap, energy: loads.energy })
     }
 
-    /// A body and a support with a shape at the start, unless they are farther apart than they are large.
+    /// A body and a support with a shape at the start.
     fn of_solid_support(model: &Model, start: &State, pair: &Pair) -> Option<Self> {
         let encounter = Encounter::new(model, start, pair)?;
         let gap = encounter.initial_gap;
-        if gap > encounter.size {
-            return None;
-        }
         // As of a support that is a plane.
         let [_, force] = encounter.at(gap)?;
         let energy = force * gap / (pair.form.laws.repulsion.exponent - 1.0);
@@ -170,7 +163,7 @@ impl Near {
             exponent => exponent,
         };
         let gap = approach.initial_gap;
-        if exponent <= 1.0 || gap > approach.size() {
+        if exponent <= 1.0 {
             return None;
         }
         // Of a face the force F ∝ d^−ν stores F d/(ν − 1), of what is sharper a little more.
