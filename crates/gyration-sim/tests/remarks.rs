@@ -202,6 +202,15 @@ fn energy_stored_at_the_start_that_dwarfs_all_other_is_warned_of() {
     };
     assert!(above(0.05 + 1e-9).iter().any(|told| told.contains("\"a\" and the support \"table\" begin 1.00")));
     assert!(above(0.051).is_empty());
+    // Symptom: farther from one another than they are large nothing was said, and a die of 2 cm was shot 361 m high.
+    let of_a_metre = "repulsion = { alpha = 1000, nu = 6 }\n";
+    let high = "[[support]]\nname = \"table\"\nplane = {}\n[[contact]]\nsupport = \"table\"\n";
+    let body = ball("a", 0.01, "position = [0, 0, 0.1]");
+    let warnings = remarks(&format!("[time]\nend = 0.01\nsample = 0.01\n{high}{of_a_metre}{body}")).warnings;
+    assert!(warnings.iter().any(|told| told.contains("\"table\" begin 0.09 m apart")), "{warnings:?}");
+    let bodies = ball("a", 0.01, &at(0.0)) + &ball("b", 0.01, &at(0.1));
+    let far = format!("[time]\nend = 0.01\nsample = 0.01\n{bodies}[[contact]]\nbetween = [\"a\", \"b\"]\n{of_a_metre}");
+    assert!(remarks(&far).warnings.iter().any(|told| told.contains("\"b\" begin 0.08 m apart")), "{far}");
     // Adhesion alone pushes with its repulsive part.
     let adhering = |height: f64| {
         let table = "[[support]]\nname = \"table\"\nplane = {}\n[[contact]]\nsupport = \"table\"\n";
@@ -322,6 +331,23 @@ fn what_the_fluid_between_bodies_would_do_is_told_with_its_size() {
     assert!(near.contains("the fluid between \"a\" and the support \"floor\" is left out"), "{near}");
     assert!(near.contains("134 times as large"), "{near}");
     assert!(remarks(&above(0.06)).warnings.is_empty());
+    // A soft sphere nearly is one. Symptom: 16 times, however near it was.
+    let soft = "affine = { material = { neo_hookean = { shear = 1e5 } } }\ninclusion";
+    let [near] = &remarks(&above(0.005 * 1.0076).replace("inclusion", soft)).warnings[..] else {
+        panic!("one warning")
+    };
+    assert!(near.contains("about 134 times as large"), "{near}");
+    let box_of = "box = { size = [0.01, 0.01, 0.01] }";
+    let near = remarks(&above(0.005 * 1.0076).replace("sphere = { radius = 0.005 }", box_of)).warnings;
+    assert!(near.iter().any(|told| told.contains("more than 16 times as large")), "{near:?}");
+    // Symptom: "they" would move 1.35 times as fast, which is nothing that the small one does.
+    let unlike =
+        two(0.0425).replacen("radius = 0.005", "radius = 0.01", 1).replace("radius = 0.005", "radius = 0.0005");
+    let [near] = &remarks(&unlike).warnings[..] else { panic!("one warning") };
+    assert!(
+        near.contains("where \"a\" moves along their line, it would take \"b\" along with about 0.35 times"),
+        "{near}"
+    );
     // Nothing is left out between those that say so.
     let feels = |text: &str, key: &str| text.replace("inertia = false", &format!("inertia = false, {key} = true"));
     let said = remarks(&feels(&two(0.0105), "neighbours"));

@@ -6,12 +6,16 @@ use crate::input::stem;
 use crate::output;
 use gyration_record::write_file;
 use gyration_view::{Stored, report};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Writes the report.
 pub fn execute(arguments: &ReportArguments) -> Result<u8, CliError> {
     let stored = Stored::open(&arguments.recording)?;
     let made = report(&stored)?;
+    if arguments.output.as_deref() == Some(Path::new("-")) {
+        output::print(&made.html)?;
+        return Ok(code::DONE);
+    }
     let default = || PathBuf::from(format!("{}.html", stem(&arguments.recording)));
     let path = arguments.output.clone().unwrap_or_else(default);
     write_file(&path, made.html.as_bytes())?;

@@ -25,19 +25,19 @@ pub fn height(recorded: &RecordedScene) -> Result<Chart, PlotError> {
     Ok(without_idle_names(Chart { title, x: time_axis(recorded)?, y, series, remarks, height: HEIGHT }))
 }
 
-/// Smallest distance of each body to a support.
+/// Smallest distance of each body to what it meets.
 pub fn gap(recorded: &RecordedScene) -> Result<Chart, PlotError> {
     let bodies = drawn_bodies(recorded);
     let lines = recorded.lines(&["gap"], bodies.len(), |row, k| row[0][bodies[k]])?;
     let has_gap = |line: &Vec<[f64; 2]>| line.iter().any(|point| point[1].is_finite());
     let (bodies, lines): (Vec<usize>, Vec<_>) = bodies.into_iter().zip(lines).filter(|(_, line)| has_gap(line)).unzip();
     if lines.is_empty() {
-        return Err(PlotError::Nothing { what: "gap", reason: "no body with a surface meets a support" });
+        return Err(PlotError::Nothing { what: "gap", reason: "no body with a surface has a contact" });
     }
     let (series, remarks) = body_series(recorded, &bodies, lines);
     let wide = extremes(values(&series)).is_some_and(|(low, high)| low > 0.0 && high > WIDE * low);
     let axis = if wide { Axis::logarithmic } else { Axis::linear };
     let y = axis("gap", "m", values(&series).collect::<Vec<f64>>());
-    let title = "Smallest distance to a support".to_owned();
+    let title = "Smallest distance to what is met".to_owned();
     Ok(without_idle_names(Chart { title, x: time_axis(recorded)?, y, series, remarks, height: HEIGHT }))
 }

@@ -13,7 +13,7 @@ pub enum PlotQuantity {
     Motion,
     /// Height of the centres over time.
     Height,
-    /// Smallest distance to a support over time.
+    /// Smallest distance to what is met over time.
     Gap,
     /// Principal stretches of bodies that deform.
     Stretch,

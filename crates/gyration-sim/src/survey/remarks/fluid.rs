@@ -1,9 +1,10 @@
 //! What the fluid between inclusions, and between one and a support, would do: nothing of it is computed.
 //!
 //! Each inclusion moves as if it were alone in the fluid, unless it says that it feels its neighbours. For two equal
-//! rigid spheres and for one above a plane it is known how much that leaves out (`neighbor`); of other bodies, R being
-//! half the largest diameter, the first term tells its size: 1 + 3R/2r of the speed at a distance r of the centres,
-//! 1/(1 − 9R/8h) of the drag at a height h above a plane.
+//! rigid spheres and for one above a plane it is known how much that leaves out (`neighbor`), and so about for one that
+//! deforms; of other bodies, R being half the largest diameter, the first term tells its size: 1 + 3R/2r of the speed
+//! at a distance r of the centres, 1/(1 − 9R/8h) of the drag at a height h above a plane, nearer than 1.2 R no less
+//! than there. Of two of different sizes the larger takes the smaller along with 3R/2r of its own speed.
 
 use super::neighbor::{pair_speed_ratio, plane_drag_ratio};
 use super::rows::each_row;
@@ -35,8 +36,29 @@ struct Near {
     distance: f64,
     /// How many times the speed, or the drag, of one alone.
     ratio: f64,
-    /// Whether that is the first term alone.
-    is_rough: bool,
+    /// How well that is known.
+    known: Known,
+}
+
+/// How well a ratio is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Known {
+    Well,
+    /// By the first term, or by the sphere that it nearly is.
+    About,
+    /// It is greater: the first term means nothing there.
+    AtLeast,
+}
+
+impl Known {
+    /// The words before the ratio.
+    fn words(self) -> &'static str {
+        match self {
+            Self::Well => "",
+            Self::About => "about ",
+            Self::AtLeast => "more than ",
+        }
+    }
 }
 
 /// What is left out of the fluid: of all neighbours the ones that matter most.
@@ -129,7 +151,6 @@ impl LeftOut {
             true => format!(" at t = {} s", significant(near.time, 5)),
             false => " at the start".to_owned(),
         };
-        let about = |near: &Near| if near.is_rough { "about " } else { "" };
         let name = |body: usize| model.name(body);
         if let Some(near) = &self.pair {
             let (distance, ratio) = (significant(near.distance, 4), significant(near.ratio, 3));
@@ -137,13 +158,21 @@ impl LeftOut {
                 0 | 1 => String::new(),
                 pairs => format!("; so of {pairs} pairs of inclusions within {NEAR} radii"),
             };
+            let [size, other] = [near.body, near.other].map(|body| model.bodies[body].size);
+            let what = match near.known {
+                Known::About if are_unequal([size, other]) => format!(
+                    "where \"{}\" moves along their line, it would take \"{}\" along with about {} times its own speed",
+                    name(if size > other { near.body } else { near.other }),
+                    name(if size > other { near.other } else { near.body }),
+                    significant(near.ratio - 1.0, 2)
+                ),
+                known => format!("they would move along their line {}{ratio} times as fast", known.words()),
+            };
             told.push(format!(
-                "the fluid between \"{}\" and \"{}\" is left out: {distance} m apart{}, they would move along their \
-                 line {}{ratio} times as fast{more}",
+                "the fluid between \"{}\" and \"{}\" is left out: {distance} m apart{}, {what}{more}",
                 name(near.body),
                 name(near.other),
                 when(near),
-                about(near)
             ));
         }
         if let Some(near) = &self.plane {
@@ -158,7 +187,7 @@ impl LeftOut {
                 name(near.body),
                 model.supports[near.other].name,
                 when(near),
-                about(near)
+                near.known.words()
             ));
         }
         told
@@ -170,41 +199,51 @@ fn is_felt(model: &Model, body: usize) -> bool {
     model.spheres().is_some_and(|spheres| spheres.place(body).is_some())
 }
 
-/// Keeps the neighbour that matters more, the first of those that matter alike.
+/// Whether two sizes differ by more than rounding.
+fn are_unequal([one, other]: [f64; 2]) -> bool {
+    (one - other).abs() > 1e-9 * one.max(other)
+}
+
+/// Keeps the neighbour that matters more, of those that matter alike the nearest, and of those the first.
 fn largest(kept: &mut Option<Near>, near: Near) {
-    if kept.is_none_or(|kept| near.ratio > kept.ratio) {
+    if kept.is_none_or(|kept| (near.ratio, -near.distance) > (kept.ratio, -kept.distance)) {
         *kept = Some(near);
     }
 }
 
-/// Whether a body is a rigid sphere.
+/// Whether a body has the shape of a sphere in its reference placement.
 fn is_ball(model: &Model, body: usize) -> bool {
-    let body = &model.bodies[body];
-    matches!(body.kind, BodyKind::Rigid(_))
-        && body.solid.surface.as_ref().is_some_and(|surface| surface.ball().is_some())
+    model.bodies[body].solid.surface.as_ref().is_some_and(|surface| surface.ball().is_some())
+}
+
+/// Whether a body keeps its shape.
+fn is_rigid(model: &Model, body: usize) -> bool {
+    matches!(model.bodies[body].kind, BodyKind::Rigid(_))
 }
 
 /// Two inclusions beside each other.
 fn beside(model: &Model, bodies: [usize; 2], distance: f64, time: f64) -> Near {
     let radii = bodies.map(|body| 0.5 * model.bodies[body].size);
     let radius = radii[0].max(radii[1]);
-    let are_equal = (radii[0] - radii[1]).abs() <= 1e-9 * radius && bodies.iter().all(|body| is_ball(model, *body));
-    let is_rough = !are_equal || distance <= 2.0 * radius;
+    let are_equal = !are_unequal(radii) && bodies.iter().all(|body| is_ball(model, *body));
     // Nearer than in touch the first term means nothing more.
-    let ratio = match is_rough {
-        true => 1.0 + 1.5 * radius / distance.max(radii[0] + radii[1]),
-        false => pair_speed_ratio(distance / radius),
+    let (ratio, known) = match are_equal && distance > 2.0 * radius {
+        false => (1.0 + 1.5 * radius / distance.max(radii[0] + radii[1]), Known::About),
+        true if bodies.iter().all(|body| is_rigid(model, *body)) => (pair_speed_ratio(distance / radius), Known::Well),
+        true => (pair_speed_ratio(distance / radius), Known::About),
     };
-    Near { time, body: bodies[0], other: bodies[1], distance, ratio, is_rough }
+    Near { time, body: bodies[0], other: bodies[1], distance, ratio, known }
 }
 
 /// An inclusion above a support.
 fn above(model: &Model, body: usize, (support, height): (usize, f64), time: f64) -> Near {
     let radius = 0.5 * model.bodies[body].size;
-    let is_rough = !is_ball(model, body) || height <= radius;
-    let ratio = match is_rough {
-        true => 1.0 / (1.0 - 9.0 / (8.0 * (height / radius).max(LEAST_HEIGHT))),
-        false => plane_drag_ratio(height / radius),
+    let first_term = |height: f64| 1.0 / (1.0 - 9.0 / (8.0 * height / radius));
+    let (ratio, known) = match is_ball(model, body) && height > radius {
+        true if is_rigid(model, body) => (plane_drag_ratio(height / radius), Known::Well),
+        true => (plane_drag_ratio(height / radius), Known::About),
+        false if height > LEAST_HEIGHT * radius => (first_term(height), Known::About),
+        false => (first_term(LEAST_HEIGHT * radius), Known::AtLeast),
     };
-    Near { time, body, other: support, distance: height, ratio, is_rough }
+    Near { time, body, other: support, distance: height, ratio, known }
 }
