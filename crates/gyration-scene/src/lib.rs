@@ -34,6 +34,7 @@ mod suggest;
 mod table;
 mod template;
 mod tree;
+mod turn;
 mod uniform;
 pub mod units;
 mod unknown;

@@ -7,6 +7,7 @@ use crate::file::{Behaviour, LatticeWave, OneOrMany, SceneFile};
 use crate::file_sum::FileSum;
 use crate::key::Key;
 use crate::overriding::Override;
+use crate::turn::WrittenTurn;
 use crate::units::without_rounding;
 use crate::unknown::{FIX, GIVEN_UP, NoForm, NoWave, PATIENCE, Unknown, UnknownForm};
 use gyration::body::Body;
@@ -28,6 +29,8 @@ pub struct Scene {
     pub(crate) file: SceneFile,
     /// What contacts of these indices do, instead of laws.
     pub(crate) behaviours: Vec<(usize, Behaviour)>,
+    /// How bodies of these indices are turned and turn, where the resolved form has matrices instead.
+    pub(crate) turns: Vec<(usize, WrittenTurn)>,
     pub(crate) built: Built,
     pub(crate) unknown: Option<Box<Unknown>>,
 }
@@ -80,13 +83,17 @@ impl Scene {
         serde_json::to_value(&self.file).unwrap_or_default()
     }
 
-    /// Every number that can be set: the resolved form, with what contacts do beside the laws that follow from it.
+    /// Every number that can be set: the resolved form, with what contacts do beside the laws that follow from it, and
+    /// orientation and angular velocity of bodies that deform beside the matrices.
     ///
     /// It is no scene: a law and what it follows from exclude one another.
     pub fn numbers(&self) -> Value {
         let mut all = self.resolved();
         for (contact, behaviour) in &self.behaviours {
             all["contact"][contact]["from"] = serde_json::to_value(behaviour.with_exponent()).unwrap_or_default();
+        }
+        for (body, turn) in &self.turns {
+            turn.put(&mut all["body"][body]);
         }
         all
     }

@@ -7,7 +7,7 @@ use crate::assemble::{SceneContext, assemble, salvage};
 use crate::check::{PartialScene, Placed, RULES, Reporter, structure, values};
 use crate::document::{Diagnostics, Document};
 use crate::error::{ErrorKind, LoadError, ReadError, SceneErrors};
-use crate::file::Contact;
+use crate::file::{Body, Contact};
 use crate::gallery;
 use crate::key::name_of;
 use crate::overriding::Override;
@@ -15,6 +15,7 @@ use crate::read;
 use crate::scene::Scene;
 use crate::suggest;
 use crate::tree::Node;
+use crate::turn::WrittenTurn;
 use crate::unknown::Unknown;
 use gyration_files::Files;
 use std::borrow::Cow;
@@ -109,6 +110,8 @@ impl Template {
         let context = SceneContext::new(&partial, &document, &self.files, constants.as_ref());
         let said = |(index, contact): (usize, &Placed<Contact>)| Some((index, contact.value.from?));
         let behaviours = partial.contacts.iter().enumerate().filter_map(said).collect();
+        let turned = |(index, body): (usize, &Placed<Body>)| Some((index, WrittenTurn::of(&body.value)?));
+        let turns = partial.bodies.iter().enumerate().filter_map(turned).collect();
         let built = assemble(&mut partial, &context, &mut reporter);
         salvage(&document, &context, &mut diagnostics);
         match (partial.complete(), built) {
@@ -117,7 +120,7 @@ impl Template {
                 let (overrides, file_sums) = (overrides.to_vec(), diagnostics.into_files());
                 let unknown = (!forms.is_empty() || built.waves.is_some())
                     .then(|| Box::new(Unknown { forms, document: document.into_owned() }));
-                Ok(Scene { name, text, files, file_sums, overrides, file, behaviours, built, unknown })
+                Ok(Scene { name, text, files, file_sums, overrides, file, behaviours, turns, built, unknown })
             }
             _ => Err(document.errors(diagnostics)),
         }

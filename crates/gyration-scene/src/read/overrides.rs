@@ -129,6 +129,7 @@ fn step<'a>(at: &'a mut Node, word: &Word<'_>, next: Option<&Word<'_>>) -> Resul
                 let message = format!("no `{}` is written here, so that it has no items", word.name);
                 let whole = match word.name {
                     "gradient" | "gradient_rate" => "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+                    "quaternion" => "[1, 0, 0, 0]",
                     _ => "[1, 0, 0]",
                 };
                 return fault(message, format!("set it as a whole first: {} = {whole}", word.name));

@@ -72,6 +72,26 @@ fn an_incompressible_body_agrees_with_differences_of_runs() {
     assert!(worst < 1e-5, "{worst:e}");
 }
 
+/// Symptom: the scene had no such numbers, though they can be set: its resolved form has P and Ṗ.
+#[test]
+fn turns_of_a_body_that_deforms_are_numbers_of_its_scene() {
+    let text = r#"
+        time = { end = 0.2, sample = 0.1 }
+        world = { gravity = [0, 0, 0] }
+        [[body]]
+        name = "soft"
+        shape = { box = { size = [0.1, 0.2, 0.3] } }
+        density = 1000
+        orientation = { axis_angle = { axis = [1, 2, 0], angle = 0.3 } }
+        angular_velocity = [3, 10, 5]
+        affine = { material = { neo_hookean = { shear = 2e4 } }, viscosity = 10 }
+    "#;
+    let keys = ["body.soft.angular_velocity.1", "body.soft.orientation.axis_angle.angle"];
+    let quantities = ["soft.P_xz", "soft.Pdot_zz", "energy.kinetic", "energy.elastic", "work.viscosity"];
+    let worst = disagreement(text, &strings(&TIGHT), &keys, &quantities, 1e-3);
+    assert!(worst < 1e-6, "{worst:e}");
+}
+
 /// det P = 1 along the run, whatever the number: tr(P⁻¹ ∂P/∂p) = 0.
 #[test]
 fn derivatives_of_an_incompressible_body_are_tangent_to_its_constraint() {
