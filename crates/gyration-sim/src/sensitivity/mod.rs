@@ -17,6 +17,7 @@ mod flow;
 mod following;
 mod history;
 mod kinks;
+mod last_powers;
 mod probe;
 mod quantity;
 mod stage_equations;

@@ -21,9 +21,11 @@ const FINER: f64 = 8.0;
 const MOST_PROBES: i32 = 8;
 /// Differences agree whose error is no larger a part of them.
 const AGREE: f64 = 1e-8;
-/// Three places, in steps, at which what a stencil leaves of a parabola is looked at: rounding alone, if the steps are
-/// short enough.
-const NOISY: [f64; 3] = [1.0, 1.7, 2.9];
+/// The sixth difference of seven values has nothing but their rounding, if they are near enough to one another.
+const SIXTH: [f64; 7] = [1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0];
+/// It is taken over so many steps, from so many of them on: about the middle, or on one side.
+const NOISY: [f64; 2] = [1.0, 3.0];
+const SIDES: [f64; 3] = [-3.0, 0.0, -6.0];
 
 /// Four places of a line, in steps, and what weighs them in a difference over one step and in one over two.
 struct Stencil {
@@ -80,14 +82,21 @@ impl Stencil {
 /// By how much what is evaluated within a step, far below all that it could change in, is rounded: a gap of two bodies
 /// by parts of their distance, not of its own. What is not known there tells nothing.
 fn noise<E>(step: f64, evaluate: &mut impl FnMut(f64) -> Result<Vec<f64>, E>) -> Vec<f64> {
+    let deviation = SIXTH.iter().map(|weight| weight * weight).sum::<f64>().sqrt();
+    let mut at = |spacing: f64, from: f64| -> Result<Vec<f64>, E> {
+        let mut sums = Vec::new();
+        for (weight, k) in SIXTH.iter().zip(0..) {
+            let values = evaluate((from + f64::from(k)) * spacing * step)?;
+            sums.resize(values.len(), 0.0);
+            sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
+        }
+        Ok(sums)
+    };
     let mut most: Vec<f64> = Vec::new();
-    for place in NOISY {
-        let points = [-2.0, -1.0, 1.0, 2.0].map(|k| evaluate(k * place * step));
-        let [Ok(a), Ok(b), Ok(c), Ok(d)] = points else { return Vec::new() };
-        most.resize(a.len(), 0.0);
-        // Nothing of a parabola, and √10 deviations of the values.
-        let left = |i: usize| (d[i] - 2.0 * c[i] + 2.0 * b[i] - a[i]).abs() / 10.0_f64.sqrt();
-        most.iter_mut().enumerate().for_each(|(i, most)| *most = most.max(left(i)));
+    for spacing in NOISY {
+        let Some(sums) = SIDES.iter().find_map(|from| at(spacing, *from).ok()) else { return Vec::new() };
+        most.resize(sums.len(), 0.0);
+        most.iter_mut().zip(sums).for_each(|(most, sum)| *most = most.max(sum.abs() / deviation));
     }
     most
 }
@@ -107,9 +116,21 @@ pub(super) fn along<E>(
     if size == 0.0 {
         return Ok(vec![0.0; evaluate(0.0)?.len()]);
     }
+    by_steps_from(PROBE / size, evaluate)
+}
+
+/// The derivative of something by time, within a span \[s\]. Steps are powers of two, so that times are neighbours by
+/// these to the last digit.
+pub(super) fn in_time<E>(span: f64, evaluate: impl FnMut(f64) -> Result<Vec<f64>, E>) -> Result<Vec<f64>, E> {
+    let (_, exponent) = libm::frexp(PROBE * span);
+    by_steps_from(libm::ldexp(0.5, exponent), evaluate)
+}
+
+/// A derivative by differences over steps of which this is the largest.
+fn by_steps_from<E>(first: f64, mut evaluate: impl FnMut(f64) -> Result<Vec<f64>, E>) -> Result<Vec<f64>, E> {
     let (mut best, mut rounded): (Vec<Slope>, Vec<f64>) = (Vec::new(), Vec::new());
     for probe in 0.. {
-        let step = PROBE / size * FINER.powi(-probe);
+        let step = first * FINER.powi(-probe);
         let is_last = probe + 1 == MOST_PROBES;
         let found = CENTRAL
             .slopes(step, &rounded, &mut evaluate)
@@ -126,7 +147,7 @@ pub(super) fn along<E>(
         if best.is_empty() {
             best = found;
             if !do_agree && !is_last {
-                rounded = noise(PROBE / size * FINER.powi(1 - MOST_PROBES), &mut evaluate);
+                rounded = noise(first * FINER.powi(1 - MOST_PROBES), &mut evaluate);
                 best.iter_mut().zip(&rounded).for_each(|(slope, noise)| slope.error += noise / step);
             }
         } else {

@@ -11,7 +11,8 @@
 
 use super::collocation::CollocationStep;
 use super::kinks::ends_at_kink;
-use super::probe::{along, gone, reason};
+use super::last_powers::WorkSlopes;
+use super::probe::{along, gone, in_time, reason};
 use super::tangent::{Followed, Nodes, Tangent};
 use gyration::Inadmissible;
 use gyration::state::State;
@@ -24,32 +25,6 @@ const BESIDE: f64 = 16.0 * f64::EPSILON;
 const MOSTLY: f64 = 0.9;
 /// How far from the ends of a step, which may miss a kink by roundings, as a part of their time.
 const ASIDE: f64 = 128.0 * f64::EPSILON;
-
-/// How works change over a step, a column for each number.
-pub(super) struct WorkSlopes {
-    /// W′ at the nodes, without what a shift in time does.
-    pub nodes: Vec<DMatrix<f64>>,
-    /// σ [g].
-    pub shifted: DMatrix<f64>,
-    /// g at the end.
-    end: Vec<f64>,
-}
-
-/// The powers at the end of the last step.
-#[derive(Default)]
-pub(super) struct LastPowers(Option<(f64, Vec<f64>)>);
-
-impl LastPowers {
-    /// Forgets them: behind a kink they are others.
-    pub fn forget(&mut self) {
-        self.0 = None;
-    }
-
-    /// Takes those at the end of a step that has been taken.
-    pub fn take(&mut self, time: f64, slopes: WorkSlopes) {
-        self.0 = Some((time, slopes.end));
-    }
-}
 
 /// The rates of a state and its powers.
 struct Flow {
@@ -117,10 +92,8 @@ impl Tangent<'_> {
     /// g at the beginning of a step, behind what is not smooth there: that at the end of the step before if that is
     /// known, so that what is taken off here and put on there is the same to the last digit.
     fn powers_at_start(&mut self) -> Result<Vec<f64>, Inadmissible> {
-        if let Some((time, powers)) = &self.last_powers.0
-            && *time == self.time
-        {
-            return Ok(powers.clone());
+        if let Some(powers) = self.last_powers.at(self.time) {
+            return Ok(powers.to_vec());
         }
         self.look_at(self.time, 0.0);
         let state = self.at.clone();
@@ -142,7 +115,7 @@ impl Tangent<'_> {
 
     /// ∂g/∂t at a state within a step of this size, by neighbours that are no later: it may end at a kink.
     fn powers_in_time(&mut self, state: &State, size: f64) -> Result<Vec<f64>, Inadmissible> {
-        let found = along(&[1.0], &[size], |part| match part > 0.0 {
+        let found = in_time(size, |part| match part > 0.0 {
             true => Err(None),
             false => Ok(self.flow(&State { time: state.time + part, ..state.clone() }).map_err(Some)?.powers),
         });
