@@ -32,6 +32,23 @@ fn the_way_to_rest_leads_over_no_hill() {
     }
 }
 
+/// A well that is wide, with a narrow valley or hill on the way down it. Symptom: the way to rest led through both.
+#[test]
+fn narrow_valleys_and_hills_within_a_wide_well_are_seen() {
+    for (start, potential, to) in
+        [(1.0, "0.5*x^2 - 2*exp(-((x-0.5)/0.01)^2)", 0.499_987_5), (1.2, "0.1*x^2 + 0.5*exp(-((x-0.6)/0.01)^2)", 0.628)]
+    {
+        let scene = points(&format!(
+            "[[body]]\nname = \"b\"\nshape = {{ sphere = {{ radius = 0.05 }} }}\nmass = 1\n\
+             position = [{start:?}, 0, 0]\npotential = \"{potential} + 5*(y^2+z^2)\"\n"
+        ));
+        let found = rest(&scene.built().model, &scene.built().state, 0).unwrap_or_else(|error| panic!("{error}"));
+        let place = found.placement.position.x;
+        println!("{potential}: rests at {place}");
+        assert!((place - to).abs() < 1e-3, "{potential}: {place} in the place of {to}");
+    }
+}
+
 /// Four atoms of Lennard-Jones: the tetrahedron of side 2^(1/6). Symptom: one of them came to rest 70 m away.
 #[test]
 fn atoms_that_begin_too_near_come_to_their_cluster() {

@@ -17,6 +17,7 @@ use super::shape::ModeShape;
 use super::system::SystemCoordinates;
 use super::{NoRest, Rest};
 use gyration::body::BodyKind;
+use gyration::model::Model;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_threads::Interruption;
 use nalgebra::{DMatrix, DVector};
@@ -199,17 +200,41 @@ enum Progress {
 /// By what part of the force along a step that at its end may differ from what the stiffness tells: one that has led
 /// over a hill does by more.
 const TRUSTED: f64 = 0.5;
-/// Where a step is looked at besides, as parts of it, unless it is the end of a way that closes in and the stiffness
-/// stops its force: far away a force may be what it should be by chance.
-const INSIDE: [f64; 3] = [0.125, 0.25, 0.5];
 /// A step below this part of the one before closes in: Newton's method does near a rest.
 const CLOSING: f64 = 0.5;
+/// In how many parts a step is looked at besides, for far away a force may be what it should be by chance: where the
+/// stiffness does not stop it, and among formulas, which may have hills and valleys anywhere, for each size or unit of
+/// strain that it goes, at least and at most.
+const FEW_PARTS: usize = 4;
+const PARTS: f64 = 16.0;
+const PARTS_BOUNDS: (f64, f64) = (8.0, 64.0);
 
 /// How a step stands to the one before.
 struct Pace {
     /// In lengths and strains.
     size: f64,
     is_closing: bool,
+    /// In how many parts it is looked at among formulas; none where there are none.
+    parts: Option<usize>,
+}
+
+impl Pace {
+    /// The parts at which a step is looked at, given whether the stiffness stops its force.
+    fn parts(&self, is_stopped: bool) -> usize {
+        match self.parts {
+            _ if is_stopped && self.is_closing => 1,
+            None if is_stopped => 1,
+            None => FEW_PARTS,
+            Some(parts) => parts,
+        }
+    }
+}
+
+/// Whether formulas act, between whose hills and valleys a step may lead.
+fn has_formulas(model: &Model) -> bool {
+    model.bodies.iter().any(|body| body.own.hold())
+        || !model.bonds().is_empty()
+        || model.joints().iter().any(|joint| joint.motor.drive.is_some())
 }
 
 struct Search {
@@ -235,7 +260,13 @@ impl Search {
         if size == 0.0 || (size < SMALL && size > 0.5 * self.last) {
             return Ok(if size > 0.0 && way.is_cut { Progress::IsBlocked } else { Progress::Rests });
         }
-        let pace = Pace { size, is_closing: size < CLOSING * self.last };
+        let parts = has_formulas(frozen.model()).then(|| {
+            let sizes: Vec<f64> = frozen.bodies().iter().map(|body| body.size).collect();
+            let (least, most) = PARTS_BOUNDS;
+            // Between two whole numbers.
+            (PARTS * balance.size(&shapes, &sizes, 1.0)).ceil().clamp(least, most) as usize
+        });
+        let pace = Pace { size, is_closing: size < CLOSING * self.last, parts };
         self.last = size;
         let mut grow = |factor: f64| self.reach.iter_mut().for_each(|reach| *reach *= factor);
         match Self::take(frozen, &mut self.numbers, &pace, &balance, &way.along) {
@@ -321,10 +352,10 @@ impl Search {
                     let found = frozen.rates(&there).ok().filter(|_| is_held);
                     found.is_some_and(|rates| is_as_told(coordinates.force(&rates).dot(way), part))
                 };
-                let goes_on = before + after >= 0.0
-                    && is_as_told(after, part)
-                    && (pace.is_closing && part * bend >= TRUSTED * before
-                        || INSIDE.iter().all(|inner| is_as_told_inside(inner * part)));
+                let goes_on = before + after >= 0.0 && is_as_told(after, part) && {
+                    let parts = pace.parts(part * bend >= TRUSTED * before);
+                    (1..parts).all(|k| is_as_told_inside(k as f64 / parts as f64 * part))
+                };
                 // Forces at rest are rounding; their work tells nothing.
                 if pace.size < SMALL || goes_on {
                     *numbers = ahead;
