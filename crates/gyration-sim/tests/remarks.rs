@@ -211,6 +211,26 @@ fn energy_stored_at_the_start_that_dwarfs_all_other_is_warned_of() {
     let bodies = ball("a", 0.01, &at(0.0)) + &ball("b", 0.01, &at(0.1));
     let far = format!("[time]\nend = 0.01\nsample = 0.01\n{bodies}[[contact]]\nbetween = [\"a\", \"b\"]\n{of_a_metre}");
     assert!(remarks(&far).warnings.iter().any(|told| told.contains("\"b\" begin 0.08 m apart")), "{far}");
+    // What is pinned, held between walls, or carried by a fluid stays where it is.
+    let pinned = |name: &str, x: f64| {
+        ball(name, 0.05, &format!("position = [{x:?}, 0, 0]\npin = [0, 0, 0]\nangular_velocity = [0, 0, 0.01]"))
+    };
+    let strong = "repulsion = { alpha = 1e9, nu = 2, d0 = 0.01 }\n";
+    let two = pinned("a", 0.0) + &pinned("b", 0.3);
+    let held = format!("[time]\nend = 0.01\nsample = 0.01\n{two}[[contact]]\nbetween = [\"a\", \"b\"]\n{strong}");
+    assert!(remarks(&held).warnings.is_empty(), "{:?}", remarks(&held).warnings);
+    let wall = |name: &str, x: f64| {
+        let law = "repulsion = { alpha = 1e6, nu = 4, d0 = 0.1 }\n";
+        let plane = format!("plane = {{ origin = [{x:?}, 0, 0], normal = [{:?}, 0, 0] }}", -x.signum());
+        format!("[[support]]\nname = \"{name}\"\n{plane}\n[[contact]]\nsupport = \"{name}\"\n{law}")
+    };
+    let between_walls = format!(
+        "[world]\ngravity = [0, 0, 0]\n[time]\nend = 0.01\nsample = 0.01\n{}{}{}",
+        wall("l", -0.2),
+        wall("r", 0.2),
+        ball("a", 0.05, "position = [0.001, 0, 0]\nvelocity = [0.01, 0, 0]")
+    );
+    assert!(remarks(&between_walls).warnings.is_empty(), "{:?}", remarks(&between_walls).warnings);
     // Adhesion alone pushes with its repulsive part.
     let adhering = |height: f64| {
         let table = "[[support]]\nname = \"table\"\nplane = {}\n[[contact]]\nsupport = \"table\"\n";

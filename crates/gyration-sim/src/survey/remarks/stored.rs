@@ -16,6 +16,9 @@ use gyration::tensor::{Mat3, Vec3};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+/// Beyond one size what a contact stores is told where nothing else holds the body, to so many sizes: farther away it
+/// may take longer than a run to matter.
+const FAR: f64 = 10.0;
 /// So many times all other energy is no start that was meant.
 const DWARFS: f64 = 1e3;
 /// The gap, in sizes, below which energy is told where there is no other to compare it with.
@@ -44,7 +47,8 @@ pub(super) fn warning(model: &Model, start: &State) -> Option<String> {
         return None;
     }
     let pushed = forces(model, start);
-    let most = found.iter().find(|near| !near.is_held(&pushed)).filter(|near| near.dwarfs(model, start))?;
+    let counts = |near: &&Near| !near.is_held(&pushed) && near.may_matter(model, &pushed);
+    let most = found.iter().find(counts).filter(|near| near.dwarfs(model, start))?;
     let other = most.other_energy(model, start);
     let (energy, gap) = (significant(most.energy, 3), significant(most.gap, 3));
     let times = match other > 0.0 {
@@ -66,7 +70,7 @@ struct Near {
     energy: f64,
 }
 
-/// The force that is left of all that acts on each body [N]; infinite where there is none, or no inertia.
+/// The force that is left of all that acts on each body [N]; none of one that is pinned, infinite without inertia.
 fn forces(model: &Model, start: &State) -> Vec<f64> {
     let (mut slopes, mut powers) = (vec![0.0; model.dimension()], vec![0.0; model.works().len()]);
     let numbers = start.numbers();
@@ -75,6 +79,7 @@ fn forces(model: &Model, start: &State) -> Vec<f64> {
         Some(acceleration) if found.is_ok() && !acceleration.is_empty() => {
             body.solid.mass.mass * Vec3::from_column_slice(acceleration).norm()
         }
+        _ if body.pin.is_some() => 0.0,
         _ => f64::INFINITY,
     };
     model.bodies.iter().enumerate().map(force).collect()
@@ -125,6 +130,18 @@ impl Near {
         // A force F ∝ d^−ν stores at most F d/(ν − 1), and ν ≥ 2.
         let force = self.energy / self.gap;
         self.bodies.iter().flatten().all(|body| left[*body] < HELD * force)
+    }
+
+    /// Whether it is near, or far with nothing else that could hold one of its bodies.
+    fn may_matter(&self, model: &Model, left: &[f64]) -> bool {
+        let bodies = || self.bodies.iter().flatten();
+        let size = bodies().map(|body| model.bodies[*body].size).fold(f64::INFINITY, f64::min);
+        let is_free = |body: &usize| {
+            let about = &model.bodies[*body];
+            let is_held = about.inclusion.is_some() || about.pin.is_some() || model.springs_of(*body).next().is_some();
+            !is_held && left[*body] >= self.energy / self.gap
+        };
+        self.gap <= size || (self.gap <= FAR * size && bodies().any(is_free))
     }
 
     /// A pair at the start.
