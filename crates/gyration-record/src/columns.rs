@@ -150,29 +150,52 @@ pub(crate) fn read(attribute: Option<&Value>, arrays: &[ArrayInfo]) -> Vec<Colum
 
 /// What is wrong with the columns that an attribute names.
 pub(crate) enum ColumnFault {
+    /// They are no list of entries.
+    Unreadable,
     /// A name that is none.
     Name(String),
+    /// A place that no array has, as it is written.
+    Place(String),
     /// More than a row has numbers.
     TooMany,
 }
 
-/// Checks what somebody else may have written: the names, and that there are no more columns than numbers in a row.
+/// Checks what somebody else may have written.
 ///
 /// # Errors
 /// [`ColumnFault`]
 pub(crate) fn check(attribute: Option<&Value>, arrays: &[ArrayInfo]) -> Result<(), ColumnFault> {
-    let numbers = arrays.iter().filter(|array| array.grows_with("time")).map(ArrayInfo::row_len);
-    let mut left = numbers.fold(0_usize, usize::saturating_add);
-    for entry in entries(attribute) {
-        let (labels, columns) = match entry {
-            Entry::One(text) => (Vec::new(), vec![text]),
-            Entry::Alike(alike) => (alike.labels, alike.columns),
+    let written = attribute.and_then(Value::as_array).ok_or(ColumnFault::Unreadable)?;
+    let growing = arrays.iter().filter(|array| array.grows_with("time"));
+    let numbers: HashMap<&str, &ArrayInfo> = growing.map(|array| (array.name.as_str(), array)).collect();
+    let mut left = numbers.values().map(|array| array.row_len()).fold(0_usize, usize::saturating_add);
+    for entry in written {
+        let entry = Entry::deserialize(entry).map_err(|_| ColumnFault::Unreadable)?;
+        let (labels, first, columns) = match entry {
+            Entry::One(text) => (None, 0, vec![text]),
+            Entry::Alike(alike) => (Some(alike.labels), alike.first, alike.columns),
         };
-        let count = labels.len().max(1).saturating_mul(columns.len());
-        left = left.checked_sub(count).ok_or(ColumnFault::TooMany)?;
-        let names = columns.iter().filter_map(|text| Some(parsed(text)?.0));
-        if let Some(name) = labels.iter().map(String::as_str).chain(names).find(|name| !is_column(name)) {
-            return Err(ColumnFault::Name(name.into()));
+        let count = labels.as_ref().map_or(1, Vec::len);
+        left = left.checked_sub(count.saturating_mul(columns.len())).ok_or(ColumnFault::TooMany)?;
+        if let Some(label) = labels.iter().flatten().find(|label| !is_column(label)) {
+            return Err(ColumnFault::Name(label.clone()));
+        }
+        for text in columns {
+            let (name, array, index) = parsed(&text).ok_or_else(|| ColumnFault::Place(text.clone()))?;
+            if !is_column(name) {
+                return Err(ColumnFault::Name(name.into()));
+            }
+            let has_place = |array: &ArrayInfo| match &labels {
+                None => index < array.row_len(),
+                Some(_) => {
+                    let of_dim = array.shape.get(1).copied().unwrap_or(0);
+                    let end = first.checked_add(count);
+                    end.is_some_and(|end| end <= of_dim) && index < array.row_len().checked_div(of_dim).unwrap_or(0)
+                }
+            };
+            if !numbers.get(array).is_some_and(|array| has_place(array)) {
+                return Err(ColumnFault::Place(text));
+            }
         }
     }
     Ok(())
@@ -269,5 +292,29 @@ mod tests {
         let foreign = serde_json::json!([{ "labels": ["a,"], "first": usize::MAX, "columns": ["x = position[1]"] }]);
         assert!(matches!(check(Some(&foreign), &arrays(&layout())), Err(ColumnFault::Name(name)) if name == "a,"));
         assert!(read(Some(&foreign), &arrays(&layout())).is_empty());
+    }
+
+    /// Symptom: an export ended in a panic, or lacked columns.
+    #[test]
+    fn columns_that_are_nowhere_are_refused() {
+        let arrays = arrays(&layout());
+        let entry =
+            |first: usize, text: &str| serde_json::json!([{ "labels": ["a"], "first": first, "columns": [text] }]);
+        for (attribute, is_there) in [
+            (serde_json::json!(["x = position[7]"]), true),
+            (serde_json::json!(["x = position[8]"]), false),
+            (serde_json::json!(["x = nothing[0]"]), false),
+            (serde_json::json!(["x"]), false),
+            (serde_json::json!([17]), false),
+            (serde_json::json!("x = position[0]"), false),
+            (entry(3, "x = position[1]"), true),
+            (entry(4, "x = position[1]"), false),
+            (entry(3, "x = position[2]"), false),
+            (entry(usize::MAX, "x = position[0]"), false),
+            (entry(0, "x = energy[0]"), false),
+        ] {
+            assert_eq!(check(Some(&attribute), &arrays).is_ok(), is_there, "{attribute}");
+        }
+        assert!(check(None, &arrays).is_err());
     }
 }

@@ -236,5 +236,9 @@ fn check_names(group: &Group) -> Result<(), String> {
     columns::check(group.attributes.get(COLUMNS), &group.arrays).or_else(|fault| match fault {
         ColumnFault::Name(name) => refuse("the column", &name, "letters, digits, _, - and points"),
         ColumnFault::TooMany => Err("zarr.json names more columns than a row has numbers".into()),
+        ColumnFault::Place(text) => {
+            Err(format!("zarr.json names the column `{}`, and no array has that place", text.escape_debug()))
+        }
+        ColumnFault::Unreadable => Err(format!("zarr.json has no list of columns, `{COLUMNS}`, or one that is none")),
     })
 }
