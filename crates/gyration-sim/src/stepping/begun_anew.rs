@@ -70,6 +70,9 @@ impl SteppedRun {
                 return Err(Refusal::NotFinite { body: name });
             }
             asked[start.body] = BodyMotion { placement: start.placement, velocity: start.velocity };
+            if let (Some(contraction), None) = (start.contraction, model.bodies[start.body].contraction()) {
+                return Err(Refusal::Impossible { body: name, quantity: "G", off: contraction.norm() });
+            }
             contractions[start.body] = start.contraction.or(contractions[start.body]);
             state.put(model, start.body, &start.of_kind(&model.bodies[start.body].kind, contractions[start.body]));
         }
