@@ -120,6 +120,9 @@ fn what_is_no_orbit_is_told() {
     let free = WELL.replace("potential = \"0.5*x^2 + 0.25*x^4\"", "velocity = [1, 0, 0]");
     let said = orbit(&free, &OrbitChoice::Nearest).unwrap_err();
     assert!(said.contains("does not come back"), "{said}");
+    // Symptom: it did not come back either.
+    let still = orbit(&WELL.replace("[0.9, 0, 0]", "[0, 0, 0]"), &OrbitChoice::Nearest).unwrap_err();
+    assert!(still.contains("has come to rest"), "{still}");
     let weld = "[[joint]]\nname = \"w\"\nbetween = [\"space\", \"a\"]\nkind = \"weld\"\n";
     let held = format!("{WELL}{weld}points = [[0.9, 0, 0], [0, 0, 0]]\n")
         .replace("points = [{ mass = 1, at = [0, 0, 0] }]", "sphere = { radius = 0.1 }");

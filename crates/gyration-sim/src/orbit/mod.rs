@@ -219,7 +219,7 @@ impl Orbit {
     /// kept its energy until then. A body that turns far to both sides is near in between as well.
     ///
     /// # Errors
-    /// `NoReturn`, `Outside`, `Flow`.
+    /// `AtRest`, `NoReturn`, `Outside`, `Flow`.
     pub fn returns(search: &OrbitSearch<'_>, start: &State) -> Result<(Vec<f64>, bool), NoOrbit> {
         let OrbitSearch { model, plan, .. } = *search;
         let (mut times, mut changes) = (Vec::new(), Vec::<DVector<f64>>::new());
@@ -250,6 +250,8 @@ impl Orbit {
         match ended {
             // What becomes of it later is not asked.
             _ if !returns.is_empty() => Ok((returns, most_lost <= KEPT * most_kinetic)),
+            // What moves most goes as far as it goes.
+            Ok(()) if most < 1.0 => Err(NoOrbit::AtRest),
             Ok(()) => Err(NoOrbit::NoReturn { end: plan.end }),
             Err(error) => Err(NoOrbit::Flow { period: plan.end, reason: error.to_string() }),
         }
