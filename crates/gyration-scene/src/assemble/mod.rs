@@ -257,6 +257,7 @@ pub(crate) fn assemble(
     let of_cell = cells.as_ref().and_then(Option::as_ref);
     let springs: Vec<Spring> = anchored.chain(spring::springs(partial, &assembled, of_cell, reporter)).collect();
     let bonds = bond::bonds(partial, &assembled, of_cell, context, reporter);
+    partial.joints.iter_mut().for_each(|joint| resolve::resolve_drive(&mut joint.value));
     let joints = joint::joints(partial, (&assembled, &supports), context, reporter);
     let mut met: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); assembled.len()];
     contacts.iter().for_each(|contact| _ = met[contact.body].insert(contact.support));

@@ -129,18 +129,12 @@ impl WrittenMotor<'_> {
             DriveLaw::Signal(signal) => return self.signal(signal, &place, drive, context, reporter),
         };
         let constants = constants((key.key("constants"), drive.constants.as_ref()), context, &names, reporter)?;
-        let read = match (Expression::parse(&text, &names, &constants), parse_quantity(&text)) {
-            // "2 N m" is no product of constants.
-            (Err(_), Ok((number, unit))) => {
-                let [_, push, _] = self.units();
-                if !push.is_of_all(&place, self.kind.word(), reporter) {
-                    return None;
-                }
-                Expression::parse(&format!("{:?}", number * unit.size), &names, &constants)
-            }
-            (read, _) => read,
-        };
-        let read = read.map(|expression| expression.holding(&[2]));
+        let read = Expression::parse(&text, &names, &constants).map(|expression| expression.holding(&[2]));
+        // A number with the unit of something else is no expression either.
+        let [_, push, _] = self.units();
+        if read.is_err() && parse_quantity(&text).is_ok() && !push.is_of_all(&place, self.kind.word(), reporter) {
+            return None;
+        }
         let expression = accepted(read, (&place, &text), reporter)?;
         let law = Drive::Feedback(Arc::new(expression));
         let motor = Motor { drive: Some(law.clone()), stop: None };

@@ -2,11 +2,26 @@
 //!
 //! A scene resolves to itself: what is written here is read again as it stands.
 
-use crate::file::{Affine, Body, Contractile, Rigid, Signal};
+use super::unit::Unit;
+use crate::file::{Affine, Body, Contractile, DriveLaw, Entry, Joint, Rigid, Signal};
 use crate::quantity::{GradientRate, Pressure, Velocity as Speed};
+use crate::units::parse_quantity;
 use gyration::kinematics::{Placement, Velocity};
 use gyration::state::Start;
 use gyration::tensor::Mat3;
+
+/// Writes a torque or force of a drive that has a unit of one in SI units.
+pub(super) fn resolve_drive(joint: &mut Joint) {
+    let Some(drive) = &mut joint.drive else { return };
+    for (law, of) in [(&mut drive.torque, &Unit::TORQUE), (&mut drive.force, &Unit::FORCE)] {
+        if let Some(DriveLaw::Feedback(Entry::Expression(text))) = law
+            && let Ok((number, unit)) = parse_quantity(text)
+            && of.is_of(unit.dimension)
+        {
+            *law = Some(DriveLaw::Feedback(Entry::Number(number * unit.size)));
+        }
+    }
+}
 
 /// Completes a body as it starts.
 pub(super) fn resolve(body: &mut Body, start: &Start) {

@@ -23,6 +23,11 @@ impl Unit {
         Self("a force per velocity", "\"3 N s/m\"", UnitDimension::new(0, 1, -1, 0), false);
     pub const PRESSURE: Self = Self("a pressure", "\"3 kPa\"", UnitDimension::new(-1, 1, -2, 0), false);
 
+    /// Whether a dimension is its own.
+    pub fn is_of(&self, dimension: UnitDimension) -> bool {
+        self.2 == dimension
+    }
+
     /// Whether all that is written at a key, a number or an array, is without a unit or has this one; notes what has
     /// not, given what it belongs to.
     pub fn is_of_all(&self, key: &Key, owner: &str, reporter: &mut Reporter<'_>) -> bool {
