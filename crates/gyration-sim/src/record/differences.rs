@@ -1,5 +1,6 @@
 //! In what the text that something was made from differs from the one that is to go on with it: keys, with both values.
 
+use gyration_scene::units::without_rounding;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -35,7 +36,20 @@ fn compare(key: &str, there: Option<&Value>, here: Option<&Value>, lines: &mut V
             }
         }
         _ if there == here => {}
-        _ => lines.push(format!("{key}: {} there, {} here", shown(there), shown(here))),
+        _ => {
+            let rounded = [there, here].map(|value| shown(value.map(without_rounding_within).as_ref()));
+            // What differs by rounding alone is told as it is.
+            let [there, here] = if rounded[0] == rounded[1] { [there, here].map(shown) } else { rounded };
+            lines.push(format!("{key}: {there} there, {here} here"));
+        }
+    }
+}
+
+/// A number without what a change of units has left in its last digit; anything else as it is.
+fn without_rounding_within(value: &Value) -> Value {
+    match value.as_f64().filter(|_| value.is_f64()) {
+        Some(number) => Value::from(without_rounding(number)),
+        None => value.clone(),
     }
 }
 
@@ -69,6 +83,11 @@ mod tests {
         let told = differences(&scene(1.0, 2.0), &scene(3.0, 4.0));
         assert_eq!(told, ["body.die.density: 2.0 there, 4.0 here", "time.end: 1.0 there, 3.0 here"]);
         assert_eq!(differences(&json!({}), &json!({ "spin": "full" })), ["spin: nothing there, \"full\" here"]);
+        // 1.25 g/cm3 is that in kg/m3.
+        let told = differences(&scene(1.0, 1249.9999999999998), &scene(1.0, 1000.0));
+        assert_eq!(told, ["body.die.density: 1250.0 there, 1000.0 here"]);
+        let told = differences(&scene(1.0, 1249.9999999999998), &scene(1.0, 1250.0));
+        assert_eq!(told, ["body.die.density: 1249.9999999999998 there, 1250.0 here"]);
         let body = |k: usize| json!({ "name": format!("b{k}") });
         let bodies = |count: usize| json!({ "body": (0..count).map(body).collect::<Vec<_>>() });
         assert_eq!(differences(&bodies(1), &bodies(2)), ["body.b1: nothing there, {\"name\":\"b1\"} here"]);

@@ -250,17 +250,12 @@ impl Body {
         kept && self.has_inertia() && self.guide.is_none()
     }
 
-    /// Whether its place, or that of its pin, is known to twice the digits, so that its distance from the origin takes
-    /// none of a gap.
-    pub(crate) fn keeps_place(&self) -> bool {
-        self.has_inertia()
-    }
-
     /// The length \[m\] of which its height over a plane has the digits, its centre at a place: its own, and its way
-    /// from the start along a guide; without inertia also its distance from the origin.
+    /// from the start along a guide. With inertia its place is known to twice the digits, so that its distance from the
+    /// origin takes none of a gap.
     pub fn height_scale(&self, position: &Vec3) -> f64 {
         let way = match &self.guide {
-            _ if !self.keeps_place() => position.norm(),
+            _ if !self.has_inertia() => position.norm(),
             Some(guide) if guide.center.is_some() => (position - guide.position).norm(),
             _ => 0.0,
         };

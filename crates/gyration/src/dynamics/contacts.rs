@@ -45,13 +45,13 @@ fn gap_field(at: &MotionAt, surface: &Surface, support: &Support) -> GapField {
     extended_gap_field(at, surface, support).unwrap_or(field)
 }
 
-/// g₀ = (p₀ − o(t))·n and m = Pᵀn to twice the digits, of a body that keeps them, and g₀ alone of one that keeps its
-/// place; a pinned one has p₀ = a − P r.
+/// g₀ = (p₀ − o(t))·n and m = Pᵀn to twice the digits, of a body that keeps them, and g₀ alone of others that have
+/// inertia; a pinned one has p₀ = a − P r.
 #[cold]
 fn extended_gap_field(at: &MotionAt, surface: &Surface, support: &Support) -> Option<GapField> {
     let MotionAt { model, body, index, time, numbers, .. } = *at;
     let keeps_digits = body.keeps_digits(surface);
-    if !keeps_digits && !body.keeps_place() {
+    if !keeps_digits && !body.has_inertia() {
         return None;
     }
     let slots = model.slots(index);
