@@ -17,6 +17,7 @@ use super::shape::ModeShape;
 use super::system::SystemCoordinates;
 use super::{NoRest, Rest};
 use gyration::body::BodyKind;
+use gyration::load::BondLaw;
 use gyration::model::Model;
 use gyration::tensor::{Mat3, Vec3};
 use gyration_threads::Interruption;
@@ -232,8 +233,10 @@ impl Pace {
 
 /// Whether formulas act, between whose hills and valleys a step may lead.
 fn has_formulas(model: &Model) -> bool {
+    // A stiffness has one valley.
+    let is_formula = |law: &BondLaw| !matches!(law, BondLaw::Stiffness(_));
     model.bodies.iter().any(|body| body.own.hold())
-        || !model.bonds().is_empty()
+        || model.bonds().iter().any(|bond| bond.law.as_ref().is_some_and(is_formula))
         || model.joints().iter().any(|joint| joint.motor.drive.is_some())
 }
 

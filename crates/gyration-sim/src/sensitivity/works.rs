@@ -57,7 +57,8 @@ impl Tangent<'_> {
                     }
                 }
             }
-            let in_time = if sides.is_empty() { self.powers_in_time(state, size)? } else { Vec::new() };
+            let is_shifted = shifts.iter().any(|shift| *shift != 0.0);
+            let in_time = if is_shifted { self.powers_in_time(state, size)? } else { Vec::new() };
             for column in 0..self.columns.len() {
                 if self.columns[column].is_err() {
                     continue;
