@@ -52,6 +52,7 @@ mod settled;
 mod short_range;
 mod softness;
 mod stepping;
+mod stored_energy;
 mod surfaces;
 mod surveys;
 mod touching;

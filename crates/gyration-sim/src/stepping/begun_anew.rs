@@ -85,8 +85,7 @@ impl SteppedRun {
                     .and_then(|asked| contraction_left_out(model, body, &asked, &state.contraction(model, body)?))
             })
         };
-        let all = asked.iter().zip(&contractions).enumerate();
-        all.into_iter().find_map(found).map_or(Ok(state.clone()), Err)
+        asked.iter().zip(&contractions).enumerate().find_map(found).map_or(Ok(state.clone()), Err)
     }
 }
 
