@@ -102,23 +102,18 @@ impl Island {
     /// # Errors
     /// [`Stop`] if together they have no rates.
     pub fn successor(setting: Setting, members: Vec<usize>, before: &[&Island], in_play: InPlay) -> Result<Self, Stop> {
-        let Setting { model, plan, .. } = setting;
+        let plan = setting.plan;
         // Where it begins has been come to: that is not given up.
         let mut this = Interruption::default().within(|| Self::new(setting, members, false))?;
         let time = before.iter().map(|island| island.time()).fold(f64::NEG_INFINITY, f64::max);
         let step = before.iter().map(|island| island.integrator.next_size()).filter(|size| *size > 0.0);
         let step = step.reduce(f64::min);
-        let (mut numbers, mut low) = (vec![0.0; model.dimension()], vec![0.0; model.dimension()]);
-        for island in before {
-            let integrator = &island.integrator;
-            for (own, place) in island.places() {
-                numbers[place.clone()].copy_from_slice(&integrator.state()[own.clone()]);
-                low[place.clone()].copy_from_slice(&integrator.state_low()[own.clone()]);
-            }
+        let (mut numbers, mut low) = (Vec::new(), Vec::new());
+        for (island, place) in this.members().iter().filter_map(|body| place_of(*body, before)) {
+            let own = island.model().blocks()[place].clone();
+            numbers.extend_from_slice(&island.integrator.state()[own.clone()]);
+            low.extend_from_slice(&island.integrator.state_low()[own]);
         }
-        let of_own =
-            |all: &[f64]| this.places().flat_map(|(_, place)| &all[place.clone()]).copied().collect::<Vec<f64>>();
-        let (numbers, low) = (of_own(&numbers), of_own(&low));
         let options = Options { initial_step: step, ..plan.options };
         this.integrator = Integrator::new(time, &numbers, &vec![0.0; this.works().len()], options).succeeding(&low);
         this.take_over(before);
@@ -138,16 +133,13 @@ impl Island {
     /// Takes over what is known of its bodies beside their state.
     fn take_over(&mut self, before: &[&Island]) {
         for (place, body) in self.members().to_vec().into_iter().enumerate() {
-            for island in before {
-                if let Some(there) = island.members().iter().position(|other| *other == body) {
-                    self.state.signals[place] = island.state.signals[there];
-                    self.state.peaks.sample = island.state.peaks.sample;
-                    if let (Some(own), Some(force)) =
-                        (self.state.peaks.forces.get_mut(place), island.state.peaks.forces.get(there))
-                    {
-                        *own = *force;
-                    }
-                }
+            let Some((island, there)) = place_of(body, before) else { continue };
+            self.state.signals[place] = island.state.signals[there];
+            self.state.peaks.sample = island.state.peaks.sample;
+            if let (Some(own), Some(force)) =
+                (self.state.peaks.forces.get_mut(place), island.state.peaks.forces.get(there))
+            {
+                *own = *force;
             }
         }
         // A maximum that is not a number where one of them is none.
@@ -167,4 +159,9 @@ impl Island {
         self.events = before.into_iter().flat_map(|island| island.events.iter().copied()).collect();
         self.events.sort_by(|a, b| a.event.in_order(&b.event));
     }
+}
+
+/// The island that has a body, and its place there.
+fn place_of<'a>(body: usize, islands: &[&'a Island]) -> Option<(&'a Island, usize)> {
+    islands.iter().find_map(|island| Some((*island, island.members().binary_search(&body).ok()?)))
 }
