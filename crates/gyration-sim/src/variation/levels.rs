@@ -7,9 +7,12 @@ use gyration_scene::Scene;
 /// The first step, as a part of the number.
 const FIRST: f64 = 1e-4;
 /// By how much it is reduced at a time.
-const REDUCTION: f64 = 0.1;
-/// How often: from 1e-4 to 1e-9, where rounding leaves seven digits.
-const LEVELS: usize = 6;
+const REDUCTION: f64 = 0.125;
+/// How often: from 1e-4 to 5e-11, a thousandth of a gap that is 5e-8 of the number.
+const LEVELS: usize = 8;
+/// How often at most before there are neighbours, to 3e-9: nearer ones pass for the scene itself, as det P = 1 is asked
+/// for to a tolerance.
+const FIRST_LEVELS: usize = 6;
 /// The largest step, as a part of the number, where smaller ones do not agree with themselves.
 const LARGEST: f64 = 1e-2;
 
@@ -71,7 +74,7 @@ impl VariationSteps {
     /// The first step at which all neighbours are scenes.
     fn first_level(&mut self) -> Result<(), String> {
         let mut refused = String::new();
-        for level in 0..LEVELS {
+        for level in 0..FIRST_LEVELS {
             for stencil in [CENTRAL, FORWARD] {
                 match self.level(FIRST * REDUCTION.powi(level as i32), stencil) {
                     Ok(found) => {
@@ -125,9 +128,11 @@ impl VariationSteps {
         (self.at, self.keeps_step) = (0, true);
     }
 
-    /// The neighbours at a step, a part of the scale.
+    /// The neighbours at a step, the first power of two below a part of the scale: numbers are neighbours by it to the
+    /// last digit, which are a millionth of steps as short as these.
     fn level(&self, part: f64, stencil: Stencil) -> Result<Neighbours, String> {
-        let step = part * self.scale();
+        let (_, exponent) = libm::frexp(part * self.scale());
+        let step = libm::ldexp(0.5, exponent);
         let scene = |(offset, _): &(f64, f64)| self.number.scene_at(&self.base, self.number.value + offset * step);
         let scenes = stencil.iter().map(scene).collect::<Result<Vec<_>, _>>()?;
         if !scenes.iter().all(|scene| have_same_equations(&self.base, scene)) {

@@ -33,7 +33,7 @@ const LEAN: f64 = 1e-2;
 const COMPARISONS: u32 = 16;
 /// Two derivatives of second order, of h and 2h, may differ by this part: the one of fourth order is then good to its
 /// square.
-const BEND: f64 = 1e-5;
+const BEND: f64 = 1e-6;
 /// What changes its scale by less than this in a second, for a change by the whole number, counts as no effect.
 const NOTHING: f64 = 1e-6;
 /// Two estimates of a derivative may differ by this part of the largest.

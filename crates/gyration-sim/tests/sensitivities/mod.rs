@@ -12,3 +12,4 @@ mod random;
 mod samples;
 pub mod support;
 mod switching;
+mod walls;
