@@ -216,3 +216,87 @@ fn waves_do_not_hang_on_the_cells_in_which_bodies_are_written() {
     }
     case.check("error of cos q", 0.0, error, 1e-9);
 }
+
+/// Symptom: where bonds lead on of which the determinant feels only some there were waves with |Im κ| near 5, from
+/// roots ζ = 0 and ∞ that rounding parts; two in three frequencies had some.
+#[test]
+fn waves_are_no_more_than_the_determinant_has() {
+    let case = Case {
+        row: None,
+        name: "complex bands of a chain of three masses, the second bound to the next second one",
+        source: "det Q(cos q) = 0, linear in cos q",
+    };
+    let place = |x: f64| [x, 0.0, 0.0];
+    let mut chain = LatticeScene::new(&[[3.0, 0.0, 0.0]]);
+    for (name, x, mass) in [("a", 0.0, 1.0), ("b", 1.0, 2.0), ("c", 2.0, 3.0)] {
+        chain = chain.point(name, place(x), mass);
+    }
+    let bonds = [
+        (["a", "b"], 0, 36.2, 1.0),
+        (["b", "c"], 0, 32.5, 1.0),
+        (["c", "a"], 1, 26.9, 1.0),
+        (["b", "b"], 1, 25.7, 3.0),
+    ];
+    for (between, cell, stiffness, length) in bonds {
+        chain = chain.spring(Link { between, cell: [cell, 0, 0], law: [stiffness, length, 0.0], ..Link::default() });
+    }
+    let waves = chain.waves();
+    // det Q at cos q = ±1, of a real matrix.
+    let determinant = |square: f64, cosine: f64| {
+        let [ab, bc, ca, bb] = bonds.map(|bond| bond.2);
+        let [a, b, c] = [ab + ca - square, ab + bc + 2.0 * bb * (1.0 - cosine) - 2.0 * square, bc + ca - 3.0 * square];
+        a * (b * c - bc * bc) - ab * ab * c - 2.0 * ab * bc * ca * cosine - ca * ca * b
+    };
+    let mut error: f64 = 0.0;
+    for look in 0..86 {
+        let omega = 0.5 + 0.1 * f64::from(look);
+        let [ahead, behind] = [1.0, -1.0].map(|cosine| determinant(omega * omega, cosine));
+        let expected = -(ahead + behind) / (ahead - behind);
+        let found = waves.evanescent(&[0.0; 3], 0, omega).unwrap();
+        assert_eq!(found.len(), 2, "ω = {omega}: {found:?}");
+        error = found.iter().map(|wave| (of(*wave) - expected).norm() / (1.0 + expected.abs())).fold(error, f64::max);
+    }
+    case.check("error of cos q at 86 frequencies", 0.0, error, 1e-9);
+}
+
+/// Symptom: three waves with |Im κ| near 5, from roots ζ = 0 and ∞.
+#[test]
+fn a_resonator_at_its_own_frequency_lets_no_wave_through() {
+    let case = Case {
+        row: None,
+        name: "complex bands of a chain with resonators, written one cell on, at their own frequency",
+        source: "(2k(1 − cos q) + k′ − mω²)(k′ − m′ω²) = k′², ω² = k′/m′: no κ",
+    };
+    let chain = LatticeScene::new(&[X]).point("a", [0.0; 3], 1.0).point("b", [0.5, 0.0, 0.0], 2.0);
+    let chain = chain.spring(Link { law: [10.0, 1.0, 0.0], ..Link::default() });
+    let hung = Link { between: ["b", "a"], cell: [1, 0, 0], law: [40.0, 0.5, 0.0], ..Link::default() };
+    let found = chain.spring(hung).waves().evanescent(&[0.0; 3], 0, 20.0_f64.sqrt()).unwrap();
+    case.check("waves", 0.0, found.len() as f64, 0.5);
+}
+
+/// Symptom: the iteration did not end where each wave is threefold, and all other frequencies were lost with one.
+#[test]
+fn threefold_waves_of_a_taut_chain_are_found() {
+    let case = Case {
+        row: None,
+        name: "complex bands of a taut chain with springs to second neighbours, each threefold",
+        source: "mω² = 2k₁(1 − cos q) + 2k₂(1 − cos 2q)",
+    };
+    let mut error: f64 = 0.0;
+    for second in [55.0, 20.0, 1.0] {
+        let chain = LatticeScene::new(&[X]).point("a", [0.0; 3], 1.0);
+        let chain = chain.spring(Link { law: [10.0, 0.0, 0.0], ..Link::default() });
+        let waves = chain.spring(Link { cell: [2, 0, 0], law: [second, 0.0, 0.0], ..Link::default() }).waves();
+        for omega in [2.295813581282244, 0.5, 7.0, 25.0] {
+            let found = waves.evanescent(&[0.0; 3], 0, omega).unwrap();
+            assert_eq!(found.len(), 12, "{second}, {omega}: {found:?}");
+            for wave in found {
+                let cosine = of(wave);
+                let twice = cosine * cosine * 2.0 - 1.0;
+                let left = (1.0 - cosine) * 20.0 + (1.0 - twice) * 2.0 * second - omega * omega;
+                error = error.max(left.norm() / (omega * omega));
+            }
+        }
+    }
+    case.check("error of ω²", 0.0, error, 1e-7);
+}

@@ -10,13 +10,15 @@
 //!
 //!   Q₀ u + F a + F′ b = 0,   a = ζ (N a + G u),   ζ b = N′ b + G′ u   or   L x = ζ R x
 //!
-//! without the roots ζ = 0 and ∞ that singular outer blocks bring. Of ζ = ζ₀ + 1/μ, ζ₀ of no meaning, the μ ≠ 0 are the
-//! eigenvalues of R̂ (L − ζ₀R)⁻¹ E, where R = E R̂ has the rows of a and b alone; nothing singular is inverted. Each
-//! root is then refined with ζ₀ beside it.
+//! without most of the roots ζ = 0 and ∞ that singular outer blocks bring. Of ζ = ζ₀ + 1/μ, ζ₀ of no meaning, the μ are
+//! the eigenvalues of M = R̂ (L − ζ₀R)⁻¹ E, where R = E R̂ has the rows of a and b alone; nothing singular is inverted.
+//! What is left of ζ = ∞ and 0, where two bonds lead on of which the determinant feels one, are the μ = 0 and −1/ζ₀:
+//! with null vectors V of M − μ, and W across them, M goes on as WᴴMW. Each root is then refined with ζ₀ beside it.
 
 use super::NoBands;
 use super::bloch::{BlochSystem, C64};
-use nalgebra::{ComplexField, DMatrix, DVector, Schur};
+use super::eigenspaces::eigenvalues;
+use nalgebra::{ComplexField, DMatrix, DVector};
 use std::f64::consts::TAU;
 
 /// Columns below this part of the largest are rounding.
@@ -25,10 +27,13 @@ const ROUNDING: f64 = 1e-11;
 const FARTHEST: f64 = 6.0;
 /// Real and imaginary parts of κ nearer to a symmetric value than this are rounding.
 const SYMMETRIC: f64 = 1e-10;
-/// Sweeps of an iteration at most.
-const SWEEPS: usize = 10_000;
-/// A ζ₀ of no meaning.
-const BESIDE: C64 = C64::new(0.731, 0.417);
+/// Coordinates may be so much softer than the stiffest one: what rounding leaves of zeros stays below [`ROUNDING`]
+/// then.
+const SPREAD: f64 = 1e-5;
+/// So many roundings of M are what tells a root from 0 and ∞.
+const ROUNDINGS: f64 = 1.0;
+/// Some ζ₀ of no meaning: where an iteration does not end with one it does with another.
+const BESIDE: [C64; 3] = [C64::new(0.731, 0.417), C64::new(-0.388, 0.913), C64::new(0.246, -1.137)];
 
 /// A sum Σ_{n>0} ηⁿ Q_n as F (1/η − N)⁻¹ G.
 struct Realization {
@@ -52,9 +57,9 @@ impl BlochSystem {
     /// [`NoBands`].
     pub fn evanescent(&self, kappa: &[f64; 3], direction: usize, omega: f64) -> Result<Vec<[f64; 2]>, NoBands> {
         let root = C64::new(0.0, -omega);
-        let blocks = gathered(self.blocks(kappa, direction, root));
+        let blocks = balanced(gathered(self.blocks(kappa, direction, root)));
         let Some(pencil) = Pencil::of(&blocks) else { return Ok(Vec::new()) };
-        let roots = pencil.roots().ok_or(NoBands::Evanescent(omega))?;
+        let roots = BESIDE.into_iter().find_map(|beside| pencil.roots(beside)).ok_or(NoBands::Evanescent(omega))?;
         let mut found: Vec<[f64; 2]> = roots.into_iter().filter_map(wave_number).collect();
         let least = |im: f64| if im.abs() <= SYMMETRIC { 0.0 } else { im.abs() };
         found.sort_by(|a, b| {
@@ -136,6 +141,26 @@ fn gathered(blocks: Vec<DMatrix<C64>>) -> Vec<DMatrix<C64>> {
     gathered
 }
 
+/// The same in units of the coordinates in which none is stiffer than another, as far as rounding lets them.
+fn balanced(mut blocks: Vec<DMatrix<C64>>) -> Vec<DMatrix<C64>> {
+    let size = blocks[0].nrows();
+    let largest = |i: usize| {
+        let entries = blocks
+            .iter()
+            .flat_map(|block| block.row(i).iter().chain(block.column(i).iter()).copied().collect::<Vec<_>>());
+        entries.map(|entry| entry.modulus()).fold(0.0, f64::max)
+    };
+    let stiffness: Vec<f64> = (0..size).map(largest).collect();
+    let least = SPREAD * stiffness.iter().copied().fold(0.0, f64::max);
+    let units: Vec<f64> = stiffness.iter().map(|stiffness| stiffness.max(least).sqrt()).collect();
+    for block in &mut blocks {
+        for i in 0..size {
+            (0..size).for_each(|j| block[(i, j)] = block[(i, j)].unscale(units[i] * units[j]));
+        }
+    }
+    blocks
+}
+
 /// κ of ζ = e^{2πiκ}; none where the wave dies out within a part of a cell.
 fn wave_number(zeta: C64) -> Option<[f64; 2]> {
     let (modulus, turns) = (zeta.modulus(), libm::atan2(zeta.im, zeta.re) / TAU);
@@ -179,7 +204,9 @@ impl Pencil {
         let reach = blocks.len() / 2;
         let largest = blocks.iter().map(DMatrix::norm).fold(0.0, f64::max);
         let basis = moving(blocks, ROUNDING * largest)?;
-        let within: Vec<DMatrix<C64>> = blocks.iter().map(|block| basis.adjoint() * block * &basis).collect();
+        // The states have no unit of their own.
+        let within = blocks.iter().map(|block| (basis.adjoint() * block * &basis).unscale(largest));
+        let within: Vec<DMatrix<C64>> = within.collect();
         let outer = within.iter().enumerate().filter(|(n, _)| *n != reach).map(|(_, block)| block.norm());
         let least = ROUNDING * outer.fold(0.0, f64::max);
         let ahead: Vec<_> = within[reach + 1..].iter().collect();
@@ -203,19 +230,23 @@ impl Pencil {
         Some(Self { left, right, inner })
     }
 
-    /// Every ζ.
-    fn roots(&self) -> Option<Vec<C64>> {
+    /// Every ζ but 0 and ∞, by ζ₀; of those as near to them as rounding none either.
+    fn roots(&self, beside: C64) -> Option<Vec<C64>> {
         let outer = self.left.nrows() - self.inner;
-        let shifted = (&self.left - &self.right * BESIDE).lu();
-        let mut columns = DMatrix::zeros(self.left.nrows(), outer);
-        columns.view_mut((self.inner, 0), (outer, outer)).fill_with_identity();
+        let shifted = &self.left - &self.right * beside;
+        let size = shifted.norm();
         // Where nothing holds a motion at any ζ there is none that could be told.
-        let Some(solved) = shifted.solve(&columns) else { return Some(Vec::new()) };
-        let matrix = self.right.rows(self.inner, outer) * solved;
-        let triangle = Schur::try_new(matrix, f64::EPSILON, SWEEPS)?.unpack().1;
-        let most = triangle.diagonal().iter().map(|mu| mu.modulus()).fold(0.0, f64::max);
-        let finite = triangle.diagonal().iter().copied().filter(|mu| mu.modulus() > 1e-15 * most).collect::<Vec<C64>>();
-        Some(finite.into_iter().map(|mu| self.refined(BESIDE + mu.inv())).collect())
+        let Some(inverse) = shifted.try_inverse() else { return Some(Vec::new()) };
+        let rows = self.right.rows(self.inner, outer);
+        let matrix = rows * inverse.columns(self.inner, outer);
+        let least = ROUNDINGS * f64::EPSILON * rows.norm() * size * inverse.norm().powi(2);
+        let finite = without(matrix, C64::new(0.0, 0.0), least);
+        let mut left = without(finite, -beside.inv(), least);
+        // Polarizations that rounding alone joins go apart.
+        let none = f64::EPSILON * left.camax();
+        left.iter_mut().filter(|entry| entry.modulus() < none).for_each(|entry| *entry = C64::new(0.0, 0.0));
+        let found = eigenvalues(&left)?;
+        Some(found.into_iter().map(|mu| self.refined(beside + mu.inv())).collect())
     }
 
     /// A root, refined by inverse iteration with ζ₀ beside it; that given where it leads elsewhere.
@@ -243,6 +274,18 @@ impl Pencil {
             at = found;
         }
         at
+    }
+}
+
+/// A matrix without an eigenvalue, which its null vectors tell: what is at or below `least` is none.
+fn without(mut matrix: DMatrix<C64>, value: C64, least: f64) -> DMatrix<C64> {
+    loop {
+        let shifted = &matrix - DMatrix::from_diagonal_element(matrix.nrows(), matrix.nrows(), value);
+        let across = range(&shifted.adjoint(), least);
+        if across.ncols() == matrix.nrows() {
+            return matrix;
+        }
+        matrix = across.adjoint() * matrix * across;
     }
 }
 
