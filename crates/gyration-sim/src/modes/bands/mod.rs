@@ -52,7 +52,6 @@ use super::system::SystemCoordinates;
 use super::{NoRest, Rest, RestContraction, are_driven, equilibrium, held_rest, system_rest};
 use bloch::{BlochSystem, C64};
 pub(crate) use by_cell::unit_phase;
-use eigenspaces::{hermitian, hermitian_eigen};
 use gyration::Inadmissible;
 use gyration::lattice::Lattice;
 use gyration::model::Model;
@@ -62,7 +61,7 @@ use gyration_threads::Interruption;
 use nalgebra::DVector;
 use serde::Serialize;
 use wave::Asked;
-use waves::{NEUTRAL, Waves};
+use waves::Waves;
 
 /// A cell of a lattice about a state in which it rests, or is written.
 #[derive(Debug)]
@@ -243,22 +242,6 @@ impl LatticeWaves {
     pub fn branches(&self, kappa: [f64; 3]) -> Result<Vec<Branch>, NoBands> {
         let point = PathPoint { kappa, along: [0.0; 3], label: None, is_vertex: false, begins: false };
         Ok(self.row(&point, true)?.branches)
-    }
-
-    /// The frequencies at κ where nothing resists or drives, ascending [rad/s]: 0 of what grows.
-    ///
-    /// # Errors
-    /// [`NoBands`].
-    pub(super) fn frequencies(&self, kappa: &[f64; 3]) -> Result<Vec<f64>, NoBands> {
-        if Interruption::due().is_some() {
-            return Err(NoBands::Interrupted);
-        }
-        let eigen = hermitian_eigen(hermitian(self.system.wave(kappa).stiffness)).ok_or(NoBands::Roots(*kappa))?;
-        let least = NEUTRAL * self.system.stiffest;
-        let frequency = |square: &f64| if *square <= least { 0.0 } else { libm::sqrt(*square) };
-        let mut frequencies: Vec<f64> = eigen.eigenvalues.iter().map(frequency).collect();
-        frequencies.sort_by(f64::total_cmp);
-        Ok(frequencies)
     }
 
     /// A direction that is no symmetry: it tells waves of one frequency apart where no other is given.

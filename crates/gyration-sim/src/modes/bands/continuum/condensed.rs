@@ -113,6 +113,16 @@ impl Condensed {
         (stiffness, mass)
     }
 
+    /// D and M of the lattice itself at k, along the basis.
+    pub fn whole(&self, k: &Vec3) -> (DMatrix<C64>, DMatrix<C64>) {
+        let mut stiffness = DMatrix::zeros(self.mass.nrows(), self.mass.nrows());
+        for (place, matrix) in &self.cells {
+            let (sin, cos) = libm::sincos(k.dot(place));
+            stiffness.zip_apply(matrix, |sum: &mut C64, entry| *sum += C64::new(cos, sin) * entry);
+        }
+        (stiffness, self.mass.map(|entry| C64::new(entry, 0.0)))
+    }
+
     /// (i k·R)^p/p! Φ_R, summed over R, for each p up to an order.
     fn terms(&self, k: &Vec3, order: usize) -> Vec<DMatrix<C64>> {
         let size = self.mass.nrows();

@@ -266,8 +266,16 @@ impl Continuum {
     /// # Errors
     /// [`NoBands`] if the roots are not found.
     pub fn squares(&self, model: ContinuumModel, k: &Vec3) -> Result<Vec<f64>, NoBands> {
+        let mut squares = ModelWaves::of(self.matrices(model, k)).ok_or(NoBands::Roots([0.0; 3]))?.squares;
+        squares.extend(std::iter::repeat_n(0.0, self.loose(model)));
+        squares.sort_by(f64::total_cmp);
+        Ok(self.told(squares))
+    }
+
+    /// D and M of a model at k.
+    fn matrices(&self, model: ContinuumModel, k: &Vec3) -> (DMatrix<C64>, DMatrix<C64>) {
         let real = |matrix: &DMatrix<f64>| matrix.map(|entry| C64::new(entry, 0.0));
-        let (stiffness, mass) = match model {
+        match model {
             ContinuumModel::First => (self.truncated(k, false), real(&self.mass)),
             ContinuumModel::Mindlin => (self.truncated(k, true), real(&self.mass)),
             ContinuumModel::Cosserat => {
@@ -279,15 +287,18 @@ impl Continuum {
             ContinuumModel::Cauchy => self.condensed.at(k, 2),
             ContinuumModel::Gradient => self.condensed.at(k, 4),
             ContinuumModel::Relaxed => self.relaxed.at(k),
-        };
-        let mut squares = generalized(stiffness, mass).ok_or(NoBands::Roots([0.0; 3]))?;
-        if model == ContinuumModel::Relaxed {
-            // What nothing holds is no strain, and stays.
-            squares.extend(std::iter::repeat_n(0.0, self.floppy()));
-            squares.sort_by(f64::total_cmp);
         }
+    }
+
+    /// How many motions a model leaves out that nothing holds: no strain of the relaxed one, they stay where they are.
+    fn loose(&self, model: ContinuumModel) -> usize {
+        if model == ContinuumModel::Relaxed { self.floppy() } else { 0 }
+    }
+
+    /// ω² without those that are rounding.
+    fn told(&self, squares: Vec<f64>) -> Vec<f64> {
         let largest = squares.iter().fold(self.stiffest, |most: f64, square| most.max(square.abs()));
-        Ok(squares.into_iter().map(|square| if square.abs() <= NEUTRAL * largest { 0.0 } else { square }).collect())
+        squares.into_iter().map(|square| if square.abs() <= NEUTRAL * largest { 0.0 } else { square }).collect()
     }
 
     /// D(k) to k² of uu, to k of uα, to 1 or k² of αα.
@@ -310,14 +321,24 @@ impl Continuum {
     }
 }
 
-/// The eigenvalues of K x = ω² M x, ascending; zeros where M is not positive, none if the iteration does not end.
-fn generalized(stiffness: DMatrix<C64>, mass: DMatrix<C64>) -> Option<Vec<f64>> {
-    let size = mass.nrows();
-    let Some(factor) = hermitian(mass).cholesky() else { return Some(vec![0.0; size]) };
-    let lower = factor.l();
-    let half = lower.solve_lower_triangular(&hermitian(stiffness))?;
-    let within = lower.solve_lower_triangular(&half.adjoint())?;
-    let mut squares: Vec<f64> = hermitian_eigen(hermitian(within))?.eigenvalues.iter().copied().collect();
-    squares.sort_by(f64::total_cmp);
-    Some(squares)
+/// The waves K x = ω² M x.
+struct ModelWaves {
+    squares: Vec<f64>,
+    /// Lᴴx of each, M = L Lᴴ, column by column, of length one.
+    vectors: DMatrix<C64>,
+}
+
+impl ModelWaves {
+    /// Zeros where M is not positive, none if the iteration does not end.
+    fn of((stiffness, mass): (DMatrix<C64>, DMatrix<C64>)) -> Option<Self> {
+        let size = mass.nrows();
+        let Some(factor) = hermitian(mass).cholesky() else {
+            return Some(Self { squares: vec![0.0; size], vectors: DMatrix::identity(size, size) });
+        };
+        let lower = factor.l();
+        let half = lower.solve_lower_triangular(&hermitian(stiffness))?;
+        let within = lower.solve_lower_triangular(&half.adjoint())?;
+        let found = hermitian_eigen(hermitian(within))?;
+        Some(Self { squares: found.eigenvalues.iter().copied().collect(), vectors: found.eigenvectors })
+    }
 }

@@ -1,8 +1,14 @@
 //! How short waves may be before a model is off by one in a hundred.
+//!
+//! Long waves are those whose frequency vanishes with k. A branch of short ones may be below them, so that they are
+//! told by what they look like: of all waves at k those that are most like the motions which D(0) does not oppose.
 
+use super::super::bloch::C64;
 use super::super::{LatticeWaves, NoBands};
-use super::{Continuum, ContinuumModel, NoContinuum};
+use super::{Continuum, ContinuumModel, ModelWaves, NoContinuum};
 use gyration::tensor::Vec3;
+use gyration_threads::Interruption;
+use nalgebra::DMatrix;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -38,11 +44,13 @@ impl Continuum {
         model: ContinuumModel,
         periodic: &[bool],
     ) -> Result<Vec<Reach>, NoContinuum> {
-        let at_rest = self.squares(model, &Vec3::zeros())?;
-        let long = at_rest.iter().filter(|square| **square <= 0.0).count();
+        let long = [
+            self.long_waves(|k| self.condensed.whole(k))?,
+            self.long_waves(|k| self.matrices(model, k))?.with(self.loose(model)),
+        ];
         let along = |direction: [f64; 3]| {
             let wavelength = |part: f64| TAU / waves.wave_vector(&direction.map(|it| part * it)).norm();
-            let is_off = |part: f64| self.is_off(waves, model, direction.map(|it| part * it), long);
+            let is_off = |part: f64| self.is_off(&waves.wave_vector(&direction.map(|it| part * it)), model, &long);
             let mut ends = None;
             for look in 1..=LOOKS {
                 let part = |look: u32| 0.5 * f64::from(look) / f64::from(LOOKS);
@@ -65,18 +73,54 @@ impl Continuum {
         directions(periodic).into_iter().map(along).collect()
     }
 
-    /// Whether one of so many of the lowest waves at κ is off.
-    fn is_off(
-        &self,
-        waves: &LatticeWaves,
-        model: ContinuumModel,
-        kappa: [f64; 3],
-        long: usize,
-    ) -> Result<bool, NoBands> {
-        let lattice = waves.frequencies(&kappa)?;
-        let own = self.frequencies(model, &waves.wave_vector(&kappa))?;
-        let mut errors = own.iter().zip(&lattice).take(long).filter_map(|(own, exact)| frequency_error(*own, *exact));
+    /// What the long waves of a lattice or a model look like, given its D and M.
+    fn long_waves(&self, matrices: impl Fn(&Vec3) -> (DMatrix<C64>, DMatrix<C64>)) -> Result<LongWaves, NoBands> {
+        let at_rest = ModelWaves::of(matrices(&Vec3::zeros())).ok_or(NoBands::Roots([0.0; 3]))?;
+        let squares = self.told(at_rest.squares);
+        let free: Vec<usize> = (0..squares.len()).filter(|wave| squares[*wave] <= 0.0).collect();
+        Ok(LongWaves { motions: at_rest.vectors.select_columns(&free), loose: 0 })
+    }
+
+    /// Whether one of the long waves at k is off.
+    fn is_off(&self, k: &Vec3, model: ContinuumModel, [lattice, own]: &[LongWaves; 2]) -> Result<bool, NoBands> {
+        if Interruption::due().is_some() {
+            return Err(NoBands::Interrupted);
+        }
+        let of = |long: &LongWaves, matrices| {
+            let waves = ModelWaves::of(matrices).ok_or(NoBands::Roots([0.0; 3]))?;
+            let squares = self.told(long.squares(&waves));
+            Ok::<_, NoBands>(squares.into_iter().map(|square| libm::sqrt(square.max(0.0))))
+        };
+        let exact = of(lattice, self.condensed.whole(k))?;
+        let mut errors =
+            of(own, self.matrices(model, k))?.zip(exact).filter_map(|(own, exact)| frequency_error(own, exact));
         Ok(errors.any(|error| error >= OFF))
+    }
+}
+
+/// The motions that nothing opposes as long as they are the same everywhere.
+struct LongWaves {
+    /// Column by column, in axes along which M is one.
+    motions: DMatrix<C64>,
+    /// How many more there are that stay where they are.
+    loose: usize,
+}
+
+impl LongWaves {
+    fn with(self, loose: usize) -> Self {
+        Self { loose, ..self }
+    }
+
+    /// ω² of as many of these waves, those that are most like them, ascending.
+    fn squares(&self, waves: &ModelWaves) -> Vec<f64> {
+        let along = self.motions.adjoint() * &waves.vectors;
+        let shares: Vec<f64> = along.column_iter().map(|column| column.norm_squared()).collect();
+        let mut order: Vec<usize> = (0..waves.squares.len()).collect();
+        order.sort_by(|one, other| shares[*other].total_cmp(&shares[*one]));
+        let long = order.iter().take(self.motions.ncols()).map(|wave| waves.squares[*wave]);
+        let mut squares: Vec<f64> = long.chain(std::iter::repeat_n(0.0, self.loose)).collect();
+        squares.sort_by(f64::total_cmp);
+        squares
     }
 }
 

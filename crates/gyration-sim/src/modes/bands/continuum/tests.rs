@@ -78,7 +78,8 @@ fn continuum(waves: &LatticeWaves) -> Continuum {
 
 /// The largest error of the three lowest frequencies at κ.
 fn off(waves: &LatticeWaves, continuum: &Continuum, model: ContinuumModel, kappa: [f64; 3]) -> f64 {
-    let exact = waves.frequencies(&kappa).unwrap_or_else(|error| panic!("{error}"));
+    let exact = waves.branches(kappa).unwrap_or_else(|error| panic!("{error}"));
+    let exact: Vec<f64> = exact.iter().map(|branch| branch.omega).collect();
     let own = continuum.frequencies(model, &waves.wave_vector(&kappa)).unwrap_or_else(|error| panic!("{error}"));
     (0..3).map(|branch| (own[branch] / exact[branch] - 1.0).abs()).fold(0.0, f64::max)
 }
@@ -187,5 +188,45 @@ fn a_stress_breaks_the_symmetry_of_pairs_and_that_is_told() {
     // In the plane.
     for [i, a, j, b] in (0..16).map(|n| [n / 8, n / 4 % 2, n / 2 % 2, n % 2]) {
         assert!((c[i][a][j][b] - c[a][i][j][b]).abs() < 1e-9 * c[0][0][0][0]);
+    }
+}
+
+/// Symptom: branches were compared in ascending order, so that where a flat one lay below the long waves a continuum of
+/// Cauchy was said to end at 254 m, and one with the flat branch nowhere.
+#[test]
+fn a_branch_below_long_waves_takes_nothing_from_the_reach_of_a_model() {
+    let chain = r#"
+        world = { gravity = [0, 0, 0] }
+        time = { end = 1, sample = 1 }
+        lattice = { cell = [[1, 0, 0]] }
+        [[body]]
+        name = "a"
+        shape = { box = { size = [0.2, 0.2, 0.2] } }
+        mass = 1
+        potential = "0.0002*(P_xy^2 + P_yz^2 + P_zx^2)"
+        [[spring]]
+        between = ["a", "a"]
+        cell = [1, 0, 0]
+        rest_length = 0
+        stiffness = 100
+    "#;
+    let waves = waves(chain);
+    let continuum = waves.continuum(&["a"]).unwrap_or_else(|error| panic!("{error}"));
+    // ω = 20 sin(q/2) beside 10 q, and beside 10 q √(1 − q²/12): off by 1 % at (q/2)/sin(q/2) = 1.01.
+    let off = |model: ContinuumModel, q: f64| match model {
+        ContinuumModel::Gradient => (0.5 * q * (1.0 - q * q / 12.0).sqrt() / (0.5 * q).sin() - 1.0).abs(),
+        _ => (0.5 * q / (0.5 * q).sin() - 1.0).abs(),
+    };
+    for model in ContinuumModel::ALL {
+        let found = continuum.reach(&waves, model, &[true]).unwrap_or_else(|error| panic!("{error}"));
+        let wavelength = found[0].wavelength.unwrap_or(f64::NAN);
+        let (mut good, mut bad) = (0.1, 3.0);
+        for _ in 0..60 {
+            let middle = 0.5 * (good + bad);
+            *(if off(model, middle) >= 0.01 { &mut bad } else { &mut good }) = middle;
+        }
+        let expected = std::f64::consts::TAU / bad;
+        println!("{}: 1 % at {wavelength} m, by hand {expected} m", model.name());
+        assert!((wavelength / expected - 1.0).abs() < 1e-9, "{}: {wavelength} for {expected}", model.name());
     }
 }
