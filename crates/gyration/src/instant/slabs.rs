@@ -2,8 +2,10 @@
 //! looked for.
 
 use crate::load::Interactions;
+use crate::model::Model;
 use crate::neighbours::{NeighbourList, Pair};
 use crate::pair::{Guess, PairGap};
+use crate::party::Party;
 
 /// The slabs between the bodies of the listed pairs at a state.
 #[derive(Debug, Clone, Default)]
@@ -36,6 +38,18 @@ impl PairGaps {
     /// The slabs of a body.
     pub fn of(&self, body: usize) -> impl Iterator<Item = &PairGap> {
         self.pairs.of(body).filter_map(|end| self.slabs.get(end.number))
+    }
+
+    /// The least gap of a body to another [m], infinite without one, and whether the two act on each other there: bodies
+    /// that deform always do.
+    pub fn nearest_to(&self, model: &Model, body: usize) -> (f64, bool) {
+        let deforms = |party: &Party| party.body().is_some_and(|body| model.bodies[body].affine().is_some());
+        let near = self.pairs.of(body).filter_map(|end| {
+            let (pair, slab) = (&self.pairs.all()[end.number], self.slabs.get(end.number)?);
+            let is_within = pair.form.range.is_none_or(|range| slab.gap < range);
+            Some((slab.gap, is_within || pair.parties.iter().any(deforms)))
+        });
+        near.min_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((f64::INFINITY, false))
     }
 
     /// Whether all pairs are listed that there are; those that are not are out of reach.
