@@ -246,6 +246,10 @@ fn another_scene_is_not_resumed() {
     sandbox.write("other.toml", &BALL.replace("5 cm", "4 cm"));
     sandbox.refused(2, &["run", "other.toml", "-o", "ball.gyr", "--resume"]);
     assert!(before == tree(&sandbox.path("ball.gyr")));
+    // No override brings back what the file said.
+    sandbox.write("changed.toml", &BALL.replace("1000", "2000"));
+    let changed = sandbox.refused(2, &["run", "changed.toml", "-o", "ball.gyr", "--resume"]);
+    assert!(changed.stderr.contains("put the scene back as it was"), "{}", changed.stderr);
     // What only the comments tell is the same scene.
     sandbox.write("same.toml", &format!("# a remark\n{BALL}"));
     sandbox.done(&["run", "same.toml", "-o", "ball.gyr", "--resume"]);

@@ -189,6 +189,10 @@ def test_a_recording_begins_anywhere_and_ends_with_another_state(ball, tmp_path)
     simulation.record(tmp_path / "ball.gyr", force=True)
     del simulation
     assert list(gyration.Recording.open(tmp_path / "ball.gyr").time) == [0.4]
+    # No run goes on with what was done by hand.
+    with pytest.raises(gyration.Error, match="stepped by hand"):
+        ball.run(tmp_path / "ball.gyr", resume=True)
+    assert list(gyration.Recording.open(tmp_path / "ball.gyr").time) == [0.4]
 
 
 def test_a_recording_that_cannot_begin_leaves_the_one_under_way_alone(ball, tmp_path):

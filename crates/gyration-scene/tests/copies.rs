@@ -349,6 +349,8 @@ fn a_table_of_places_is_refused_with_its_line() {
     let kept = [TIME, &grain("keep = { plane = [1, 0, 0] }\ncopies = { places = \"p.csv\" }")].concat();
     let found = Scene::parse("scene.toml", &kept, folder.path(), &[]).unwrap_err();
     assert!(found.count() == 1 && found.as_slice()[0].message.starts_with("the copy \"grain-1\": "), "{found}");
+    // To follow what it says without the table would add to it once more.
+    assert!(found.to_string().contains("of the body and of its place in the table add up to"), "{found}");
     // Names are not guessed at where copies are not known.
     let spring = "[[spring]]\nbetween = [\"grain-0\", \"grain-5\"]\nstiffness = 1\n";
     let found = errors("scene.toml", &[TIME, &grain("copies = { places = \"no.csv\" }"), spring].concat(), &[]);

@@ -163,8 +163,12 @@ pub enum RunError {
 
 impl RunError {
     /// A checkpoint that cannot be read.
-    pub(crate) fn unfit_checkpoint() -> Self {
-        Self::Checkpoint("its bytes are damaged, or another version of the program wrote them".into())
+    pub(crate) fn unfit_checkpoint(bytes: &[u8]) -> Self {
+        let why = match bytes.is_empty() {
+            true => "there is none, since the motion was stepped by hand",
+            false => "its bytes are damaged, or another version of the program wrote them",
+        };
+        Self::Checkpoint(why.into())
     }
 
     /// Why a run cannot start.

@@ -6,7 +6,7 @@
 use super::constraint::rows;
 use super::start::placement;
 use crate::check::{Placed, Reporter, direction};
-use crate::file::{Body, Keep};
+use crate::file::{Body, Copies, Keep};
 use crate::key::Key;
 use crate::quantity::si;
 use gyration::affine::{AffineBody, StrainGuide};
@@ -161,13 +161,19 @@ impl Kept {
 /// Puts the velocities of a start on the guide; notes those that leave it.
 fn hold(placed: &Placed<Body>, guide: &Guide, kind: &BodyKind, start: &mut Start, reporter: &mut Reporter<'_>) -> bool {
     let key = |name: &str| placed.key.key(name);
+    // Those of a table of places come to those of the body.
+    let is_sum = matches!(placed.value.copies.as_deref(), Some(Copies::Places(_)));
+    let help = |name: &str, within: String| match is_sum {
+        true => format!("let {name} of the body and of its place in the table add up to {within}"),
+        false => format!("write {name} = {within}"),
+    };
     let mut center = |velocity: &mut Vec3| {
         let Some(center) = &guide.center else { return true };
         let within = center * *velocity;
         let is_held = settle(velocity, within);
         if let Err(off) = is_held {
             let message = format!("the centre of mass would leave what `keep` keeps it to, at {off:e} m/s");
-            reporter.note(&key("velocity"), message, format!("write velocity = {}", list(&within)));
+            reporter.note(&key("velocity"), message, help("velocity", list(&within)));
         }
         is_held.is_ok()
     };
@@ -179,8 +185,7 @@ fn hold(placed: &Placed<Body>, guide: &Guide, kind: &BodyKind, start: &mut Start
             let is_held = settle(angular_velocity, within);
             if let Err(off) = is_held {
                 let message = format!("the body would turn otherwise than `keep` lets it, by {off:e} rad/s");
-                let help = format!("write angular_velocity = {}", list(&within));
-                reporter.note(&key("angular_velocity"), message, help);
+                reporter.note(&key("angular_velocity"), message, help("angular_velocity", list(&within)));
             }
             moves && is_held.is_ok()
         }
@@ -201,7 +206,7 @@ fn hold(placed: &Placed<Body>, guide: &Guide, kind: &BodyKind, start: &mut Start
             if let Err(off) = is_held {
                 let name = if placed.value.gradient_rate.is_some() { "gradient_rate" } else { "angular_velocity" };
                 let message = format!("the body would deform otherwise than `keep` lets it, by {off:e} 1/s");
-                reporter.note(&key(name), message, format!("write gradient_rate = {}", rows(&within)));
+                reporter.note(&key(name), message, help("gradient_rate", rows(&within)));
             }
             moves && is_held.is_ok()
         }

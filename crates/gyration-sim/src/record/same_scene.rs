@@ -32,7 +32,7 @@ impl Job<'_> {
         let [there, here] = [recorded, &self.all_attributes()].map(comparable);
         let resolved = |scene: Option<(Value, Value)>| scene.map_or(Value::Null, |(resolved, _)| resolved);
         let keys = differences(&resolved(there), &resolved(here));
-        let (what, fix) = if keys.is_empty() { self.other_files(recorded) } else { (keys, repeated(recorded)) };
+        let (what, fix) = if keys.is_empty() { self.other_files(recorded) } else { (keys, self.repeated(recorded)) };
         RunError::OtherScene { path: path.to_path_buf(), what: what.join("\n  "), fix }
     }
 
@@ -49,23 +49,28 @@ impl Job<'_> {
         let back = if what.len() == 1 { "put the file back as it was" } else { "put the files back as they were" };
         (what, back.to_owned())
     }
+
+    /// The overrides with which a recording goes on.
+    fn repeated(&self, recorded: &Attributes) -> String {
+        let overrides = recorded.get("overrides").and_then(Value::as_array).into_iter().flatten();
+        let there = binding(overrides.filter_map(Value::as_str));
+        let own = self.scene.overrides();
+        let here = binding(own.iter().map(String::as_str));
+        match there.is_empty() {
+            _ if there == here => "put the scene back as it was".to_owned(),
+            true => "it was made without --set".to_owned(),
+            false => format!("repeat{there}"),
+        }
+    }
 }
 
-/// The overrides with which a recording goes on.
-fn repeated(recorded: &Attributes) -> String {
-    let overrides = recorded.get("overrides").and_then(Value::as_array).into_iter().flatten();
-    let has_overrides = overrides.clone().next().is_some();
+/// The overrides that a resumption must repeat.
+fn binding<'a>(overrides: impl Iterator<Item = &'a str>) -> String {
     let may_differ = |text: &&str| {
         let key = text.split('=').next().unwrap_or_default().trim();
         MAY_DIFFER.iter().any(|name| key.strip_prefix("solver.") == Some(name))
     };
-    let needed = overrides.filter_map(Value::as_str).filter(|text| !may_differ(text));
-    let set = needed.map(|text| format!(" --set '{text}'")).collect::<String>();
-    match set.is_empty() {
-        true if has_overrides => "leave out --set".to_owned(),
-        true => "it was made without --set".to_owned(),
-        false => format!("repeat{set}"),
-    }
+    overrides.filter(|text| !may_differ(text)).map(|text| format!(" --set '{text}'")).collect()
 }
 
 /// The resolved scene without what may differ between a run and its resumption, and the bodies that it led to.

@@ -149,7 +149,7 @@ impl Simulation {
         if flushes() {
             return Err(RunError::Flushing);
         }
-        let unfit = RunError::unfit_checkpoint;
+        let unfit = || RunError::unfit_checkpoint(checkpoint);
         let (state, memories) = RunState::restore(checkpoint).ok_or_else(unfit)?;
         let members: Vec<Vec<usize>> = memories.iter().map(|memory| memory.members.clone()).collect();
         if !may_be_islands(model, &members) {

@@ -95,7 +95,7 @@ impl SteppedRun {
     fn of_checkpoint(scene: Model, plan: RunPlan, checkpoint: &[u8]) -> Result<Self, RunError> {
         let mut rest = checkpoint;
         let Read { changed, held, time, start, events } =
-            Read::of(&mut rest, &scene).ok_or_else(RunError::unfit_checkpoint)?;
+            Read::of(&mut rest, &scene).ok_or_else(|| RunError::unfit_checkpoint(checkpoint))?;
         let reaching = RunPlan { end: plan.end.max(time), ..plan };
         let simulation = Simulation::resume_changed(&scene, &start, reaching, rest, |run| held.put_on(run))?;
         Ok(Self { simulation, scene, plan, changed, drives: held.drives, kept: Kept::of(events) })

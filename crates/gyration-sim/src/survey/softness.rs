@@ -300,8 +300,8 @@ pub(super) fn write_softness(text: &mut String, all: &[SoftnessSurvey]) {
         }
         let bounces = match proposed.damping {
             None => None,
-            Some(law) if law.nu == proposed.repulsion.nu => Some("a flat impact"),
-            Some(_) => Some("an impact of bodies as they lie"),
+            Some(law) if law.nu == proposed.repulsion.nu => Some("a flat impact".to_owned()),
+            Some(_) => Some(format!("an impact of {softest}, as it lies, and of bodies of its shape")),
         };
         if let Some(impact) = bounces {
             let _ = writeln!(text, "           {impact} then returns the same part of any speed as now");
