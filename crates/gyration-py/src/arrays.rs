@@ -35,7 +35,7 @@ impl StateNumbers {
             bodies.clone().flat_map(|body| of(body).transpose().as_slice().to_vec()).collect()
         };
         Self {
-            position: vectors(&|body| stepper.motion(body).placement.position),
+            position: vectors(&|body| model.in_space(body, &stepper.motion(body).placement.position)),
             gradient: matrices(&|body| stepper.motion(body).placement.gradient),
             velocity: vectors(&|body| stepper.motion(body).velocity.velocity),
             gradient_rate: matrices(&|body| stepper.motion(body).velocity.gradient_rate),

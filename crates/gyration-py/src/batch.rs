@@ -145,7 +145,8 @@ impl Batch {
         array(py, self.members.iter().map(SteppedRun::time).collect(), &[self.members.len()])
     }
 
-    /// Positions of the centres of mass [m], (members, bodies, 3). Refreshed in place: take a copy to keep one.
+    /// Positions of the centres of mass in space [m], (members, bodies, 3). Refreshed in place: take a copy to keep
+    /// one.
     #[getter]
     fn position<'py>(&self, py: Python<'py>) -> Bound<'py, PyArrayDyn<f64>> {
         self.arrays.position.bind(py).clone()

@@ -111,7 +111,7 @@ impl Simulation {
         self.stepper.model().names().map(str::to_owned).collect()
     }
 
-    /// Positions of the centres of mass [m], (bodies, 3). An array of its own at each access.
+    /// Positions of the centres of mass in space [m], (bodies, 3). An array of its own at each access.
     #[getter]
     fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         as_it_is(self.arrays.position.bind(py))

@@ -63,7 +63,8 @@ impl Starts {
             placement.position = pin.anchor - placement.gradient * pin.point;
             velocity.velocity = -(velocity.gradient_rate * pin.point);
         }
-        placement.position = vector(&self.position).unwrap_or(placement.position);
+        let in_cell = |place: Vec3| stepper.model().in_cell(body, &place);
+        placement.position = vector(&self.position).map_or(placement.position, in_cell);
         velocity.velocity = vector(&self.velocity).unwrap_or(velocity.velocity);
         // What a body that does not contract shows of G is no number.
         let contracts = stepper.model().bodies[body].contraction().is_some();

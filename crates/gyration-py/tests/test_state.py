@@ -215,3 +215,22 @@ def test_what_is_recorded_by_hand_is_what_a_run_records(tmp_path):
     np.testing.assert_array_equal(by_hand.time, run.time)
     # The works have one more among them, by whose errors steps are chosen too.
     np.testing.assert_allclose(by_hand["position"], run["position"], rtol=1e-5, atol=1e-8)
+
+
+def test_places_in_a_lattice_are_those_of_recordings():
+    # Symptom: each body was where it is in its own cell, so that a row of a recording set a ring to stretch.
+    ring = gyration.Scene.from_dict({
+        "world": {"gravity": [0, 0, 0]},
+        "time": {"end": 0.2, "sample": 0.1},
+        "lattice": {"cell": [[1, 0, 0]], "repeat": [3, 1, 1]},
+        "body": [{"name": "a", "shape": {"points": [{"mass": 1, "at": [0, 0, 0]}]}, "velocity": [0.1, 0, 0]}],
+        "spring": [{"between": ["a", "a"], "cell": [1, 0, 0], "stiffness": 10, "rest_length": 1.0}],
+    })
+    recording = ring.run()
+    simulation = gyration.Simulation(ring)
+    np.testing.assert_allclose(simulation.position[:, 0], [0, 1, 2], atol=1e-12)
+    np.testing.assert_allclose(gyration.Batch(ring, 1).position[0, :, 0], [0, 1, 2], atol=1e-12)
+    simulation.set_state(position=recording["position"][-1], velocity=recording["velocity"][-1])
+    np.testing.assert_allclose(simulation.position, recording["position"][-1], atol=1e-12)
+    assert abs(simulation.energies()["load"]) < 1e-20
+    assert simulation["a-2.x"] == pytest.approx(2.02, abs=1e-12)
