@@ -92,8 +92,8 @@ pub fn apex(model: &Model, body: usize, motion: &BodyMotion, speed: f64) -> f64 
     -motion.velocity.velocity.dot(&model.gravity) / (gravity * speed * REST)
 }
 
-/// The rate of the smallest gap, given those to other bodies, where they are known; NaN without surface, or with
-/// nothing to come near to.
+/// The rate of the smallest gap to supports and to bodies that it acts on, given those to other bodies, where they are
+/// known; NaN without surface, or with nothing to come near to.
 pub fn approach(
     model: &Model,
     time: f64,
@@ -105,7 +105,7 @@ pub fn approach(
         return f64::NAN;
     }
     let support = nearest(model, time, body, motion).map(|nearest| (nearest.gap, nearest.speed));
-    let bodies = gaps.into_iter().flat_map(|gaps| gaps.of(body)).map(|slab| (slab.gap, slab.rate));
+    let bodies = gaps.into_iter().flat_map(|gaps| gaps.acting_on(model, body)).map(|slab| (slab.gap, slab.rate));
     let near = support.into_iter().chain(bodies).filter(|(gap, _)| *gap < f64::INFINITY);
     near.min_by(|one, other| one.0.total_cmp(&other.0)).map_or(f64::NAN, |(_, rate)| rate / (speed * REST))
 }

@@ -190,21 +190,19 @@ impl Island {
             let since = std::mem::replace(&mut self.since[body][kind], time);
             if events::happened(kind, before, after) {
                 let event = Event { time: self.locate(body, kind, since, time), kind, body: self.members()[body] };
-                let gap =
-                    if kind == CLOSEST_APPROACH { self.gap_within(body, event.time) } else { Some(f64::INFINITY) };
-                self.events.extend(gap.map(|gap| FoundEvent { event, gap }));
+                let gap = if kind == CLOSEST_APPROACH { self.gap_within(body, event.time) } else { f64::INFINITY };
+                self.events.push(FoundEvent { event, gap });
             }
         }
     }
 
-    /// The gap of a body to the nearest that it has a contact with, at a time within the last step [m]; infinite without
-    /// one, and where it is not known. None of a body that it passes without a force: whether that is in the island
-    /// depends on the steps.
-    fn gap_within(&mut self, body: usize, time: f64) -> Option<f64> {
+    /// The gap of a body to a support that it has a contact with, or to a body that it acts on, at a time within the
+    /// last step [m]; infinite without one, and where it is not known.
+    fn gap_within(&mut self, body: usize, time: f64) -> f64 {
         // Signals are known by now: nobody needs the sample of another time.
         self.sample(time);
         let (model, workspace) = self.system.observed();
-        workspace.gap_of((model, body), time, self.sampled.numbers()).unwrap_or(Some(f64::INFINITY))
+        workspace.gap_of((model, body), time, self.sampled.numbers()).unwrap_or(f64::INFINITY)
     }
 
     /// The time of an event between two times of the last step [s].

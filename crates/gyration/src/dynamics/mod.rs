@@ -188,22 +188,16 @@ impl Workspace {
         instants.slabs_of((model, body), time, state, |mut instant| inertialess::solve(&mut instant, scratch))
     }
 
-    /// The gap of a body to the nearest that it has a contact with [m]: a support, to all the digits of the state, or
-    /// another body, of which all that are within reach are known; infinite without, none if that is a body beyond the
-    /// distance from which on the two do nothing. Of the others only their places are looked at.
+    /// The gap of a body to what it has a contact with [m]: a support, to all the digits of the state, or a body that
+    /// it acts on; infinite without. Of the others only their places are looked at.
     ///
     /// # Errors
     /// [`Inadmissible`] where det P ≤ 0 or det G ≤ 0, or if no plane separates it from another.
-    pub fn gap_of(
-        &mut self,
-        (model, body): (&Model, usize),
-        time: f64,
-        state: Numbers,
-    ) -> Result<Option<f64>, Inadmissible> {
-        let (near, acts) = self.pair_gaps_of((model, body), time, state)?.nearest_to(model, body);
+    pub fn gap_of(&mut self, (model, body): (&Model, usize), time: f64, state: Numbers) -> Result<f64, Inadmissible> {
+        let slabs = self.pair_gaps_of((model, body), time, state)?;
+        let near = slabs.acting_on(model, body).map(|slab| slab.gap).fold(f64::INFINITY, f64::min);
         let motions = self.instants.motions(model, time, state)?;
-        let support = contacts::support_gap_at(&motions.at(model, body));
-        Ok((acts || support <= near).then(|| near.min(support)))
+        Ok(near.min(contacts::support_gap_at(&motions.at(model, body))))
     }
 
     /// The slabs that were found last, infinite of pairs that nobody has looked at since something failed; none once

@@ -40,16 +40,15 @@ impl PairGaps {
         self.pairs.of(body).filter_map(|end| self.slabs.get(end.number))
     }
 
-    /// The least gap of a body to another [m], infinite without one, and whether the two act on each other there: bodies
-    /// that deform always do.
-    pub fn nearest_to(&self, model: &Model, body: usize) -> (f64, bool) {
+    /// The slabs of a body with those that it acts on: whether others are listed depends on who asks. Bodies that
+    /// deform act on all.
+    pub fn acting_on<'a>(&'a self, model: &'a Model, body: usize) -> impl Iterator<Item = &'a PairGap> {
         let deforms = |party: &Party| party.body().is_some_and(|body| model.bodies[body].affine().is_some());
-        let near = self.pairs.of(body).filter_map(|end| {
+        self.pairs.of(body).filter_map(move |end| {
             let (pair, slab) = (&self.pairs.all()[end.number], self.slabs.get(end.number)?);
             let is_within = pair.form.range.is_none_or(|range| slab.gap < range);
-            Some((slab.gap, is_within || pair.parties.iter().any(deforms)))
-        });
-        near.min_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((f64::INFINITY, false))
+            (is_within || pair.parties.iter().any(deforms)).then_some(slab)
+        })
     }
 
     /// Whether all pairs are listed that there are; those that are not are out of reach.

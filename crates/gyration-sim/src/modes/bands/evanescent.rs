@@ -31,7 +31,7 @@ const SYMMETRIC: f64 = 1e-10;
 /// then.
 const SPREAD: f64 = 1e-5;
 /// So many roundings of M are what tells a root from 0 and ∞.
-const ROUNDINGS: f64 = 1.0;
+const ROUNDINGS: f64 = 5.0;
 /// Some ζ₀ of no meaning: where an iteration does not end with one it does with another.
 const BESIDE: [C64; 3] = [C64::new(0.731, 0.417), C64::new(-0.388, 0.913), C64::new(0.246, -1.137)];
 
@@ -234,12 +234,11 @@ impl Pencil {
     fn roots(&self, beside: C64) -> Option<Vec<C64>> {
         let outer = self.left.nrows() - self.inner;
         let shifted = &self.left - &self.right * beside;
-        let size = shifted.norm();
         // Where nothing holds a motion at any ζ there is none that could be told.
         let Some(inverse) = shifted.try_inverse() else { return Some(Vec::new()) };
         let rows = self.right.rows(self.inner, outer);
         let matrix = rows * inverse.columns(self.inner, outer);
-        let least = ROUNDINGS * f64::EPSILON * rows.norm() * size * inverse.norm().powi(2);
+        let least = ROUNDINGS * f64::EPSILON * matrix.norm();
         let finite = without(matrix, C64::new(0.0, 0.0), least);
         let mut left = without(finite, -beside.inv(), least);
         // Polarizations that rounding alone joins go apart.
