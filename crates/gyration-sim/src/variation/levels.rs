@@ -128,8 +128,8 @@ impl VariationSteps {
         (self.at, self.keeps_step) = (0, true);
     }
 
-    /// The neighbours at a step, the first power of two below a part of the scale: numbers are neighbours by it to the
-    /// last digit, which are a millionth of steps as short as these.
+    /// The neighbours at a step, the first power of two below a part of the scale: they are so far apart to the last
+    /// digit. Rounding would be a ten-millionth of the shortest steps.
     fn level(&self, part: f64, stencil: Stencil) -> Result<Neighbours, String> {
         let (_, exponent) = libm::frexp(part * self.scale());
         let step = libm::ldexp(0.5, exponent);
