@@ -272,6 +272,9 @@ fn a_resonator_at_its_own_frequency_lets_no_wave_through() {
     let hung = Link { between: ["b", "a"], cell: [1, 0, 0], law: [40.0, 0.5, 0.0], ..Link::default() };
     let found = chain.spring(hung).waves().evanescent(&[0.0; 3], 0, 20.0_f64.sqrt()).unwrap();
     case.check("waves", 0.0, found.len() as f64, 0.5);
+    // Nor do masses that nothing joins.
+    let free = LatticeScene::new(&[X]).point("a", [0.0; 3], 1.0).waves();
+    assert!([0.0, 1.0].iter().all(|omega| free.evanescent(&[0.0; 3], 0, *omega).unwrap().is_empty()));
 }
 
 /// Symptom: the iteration did not end where each wave is threefold, and all other frequencies were lost with one.

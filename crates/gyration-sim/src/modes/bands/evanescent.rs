@@ -145,13 +145,15 @@ fn gathered(blocks: Vec<DMatrix<C64>>) -> Vec<DMatrix<C64>> {
 fn balanced(mut blocks: Vec<DMatrix<C64>>) -> Vec<DMatrix<C64>> {
     let size = blocks[0].nrows();
     let largest = |i: usize| {
-        let entries = blocks
-            .iter()
-            .flat_map(|block| block.row(i).iter().chain(block.column(i).iter()).copied().collect::<Vec<_>>());
-        entries.map(|entry| entry.modulus()).fold(0.0, f64::max)
+        let own = blocks.iter().map(|block| block.row(i).camax().max(block.column(i).camax()));
+        own.fold(0.0, f64::max)
     };
     let stiffness: Vec<f64> = (0..size).map(largest).collect();
     let least = SPREAD * stiffness.iter().copied().fold(0.0, f64::max);
+    // What nothing holds, at ω = 0, has no unit.
+    if least == 0.0 {
+        return blocks;
+    }
     let units: Vec<f64> = stiffness.iter().map(|stiffness| stiffness.max(least).sqrt()).collect();
     for block in &mut blocks {
         for i in 0..size {
