@@ -3,7 +3,7 @@
 use super::Meaningless;
 use crate::adapter::{ModelSystem, Tolerance};
 use crate::outcome::Stop;
-use crate::variation::NoDerivative;
+use crate::variation::{NoDerivative, power_of_two};
 use gyration::Inadmissible;
 use gyration::extended::Extended;
 use gyration::model::Model;
@@ -122,8 +122,7 @@ pub(super) fn along<E>(
 /// The derivative of something by time, within a span \[s\]. Steps are powers of two, so that times are neighbours by
 /// these to the last digit.
 pub(super) fn in_time<E>(span: f64, evaluate: impl FnMut(f64) -> Result<Vec<f64>, E>) -> Result<Vec<f64>, E> {
-    let (_, exponent) = libm::frexp(PROBE * span);
-    by_steps_from(libm::ldexp(0.5, exponent), evaluate)
+    by_steps_from(power_of_two(PROBE * span), evaluate)
 }
 
 /// A derivative by differences over steps of which this is the largest.

@@ -8,6 +8,12 @@ pub(super) fn rounding(magnitude_over_step: f64) -> f64 {
     0.1 * ROUNDINGS * f64::EPSILON * magnitude_over_step
 }
 
+/// The largest power of two that is no larger: numbers of usual size are neighbours by it to the last digit.
+pub(crate) fn power_of_two(length: f64) -> f64 {
+    let (_, exponent) = libm::frexp(length);
+    libm::ldexp(0.5, exponent)
+}
+
 /// The points of a difference, in steps, with their weights.
 pub(super) type Stencil = &'static [(f64, f64)];
 

@@ -1,6 +1,6 @@
 //! The steps of differences by a number, and the neighbouring scenes of each.
 
-use super::difference::{CENTRAL, FORWARD, Stencil};
+use super::difference::{CENTRAL, FORWARD, Stencil, power_of_two};
 use super::number::SceneNumber;
 use gyration_scene::Scene;
 
@@ -128,11 +128,10 @@ impl VariationSteps {
         (self.at, self.keeps_step) = (0, true);
     }
 
-    /// The neighbours at a step, the first power of two below a part of the scale: they are so far apart to the last
-    /// digit. Rounding would be a ten-millionth of the shortest steps.
+    /// The neighbours at a step, a power of two near a part of the scale: rounding would else be a ten-millionth of the
+    /// shortest steps.
     fn level(&self, part: f64, stencil: Stencil) -> Result<Neighbours, String> {
-        let (_, exponent) = libm::frexp(part * self.scale());
-        let step = libm::ldexp(0.5, exponent);
+        let step = power_of_two(part * self.scale());
         let scene = |(offset, _): &(f64, f64)| self.number.scene_at(&self.base, self.number.value + offset * step);
         let scenes = stencil.iter().map(scene).collect::<Result<Vec<_>, _>>()?;
         if !scenes.iter().all(|scene| have_same_equations(&self.base, scene)) {

@@ -13,6 +13,7 @@ mod levels;
 mod number;
 
 pub(crate) use dependence::BaseRates;
+pub(crate) use difference::power_of_two;
 pub(crate) use number::SceneNumber;
 pub use number::UnknownNumber;
 

@@ -45,8 +45,8 @@ impl Continuum {
         periodic: &[bool],
     ) -> Result<Vec<Reach>, NoContinuum> {
         let long = [
-            self.long_waves(|k| self.condensed.whole(k))?,
-            self.long_waves(|k| self.matrices(model, k))?.with(self.loose(model)),
+            self.long_waves(self.condensed.whole(&Vec3::zeros()), 0)?,
+            self.long_waves(self.matrices(model, &Vec3::zeros()), self.loose(model))?,
         ];
         let along = |direction: [f64; 3]| {
             let wavelength = |part: f64| TAU / waves.wave_vector(&direction.map(|it| part * it)).norm();
@@ -73,12 +73,12 @@ impl Continuum {
         directions(periodic).into_iter().map(along).collect()
     }
 
-    /// What the long waves of a lattice or a model look like, given its D and M.
-    fn long_waves(&self, matrices: impl Fn(&Vec3) -> (DMatrix<C64>, DMatrix<C64>)) -> Result<LongWaves, NoBands> {
-        let at_rest = ModelWaves::of(matrices(&Vec3::zeros())).ok_or(NoBands::Roots([0.0; 3]))?;
+    /// What the long waves of a lattice or a model look like, given its D and M at k = 0, and how many more there are.
+    fn long_waves(&self, at_rest: (DMatrix<C64>, DMatrix<C64>), loose: usize) -> Result<LongWaves, NoBands> {
+        let at_rest = ModelWaves::of(at_rest).ok_or(NoBands::Roots([0.0; 3]))?;
         let squares = self.told(at_rest.squares);
         let free: Vec<usize> = (0..squares.len()).filter(|wave| squares[*wave] <= 0.0).collect();
-        Ok(LongWaves { motions: at_rest.vectors.select_columns(&free), loose: 0 })
+        Ok(LongWaves { motions: at_rest.vectors.select_columns(&free), loose })
     }
 
     /// Whether one of the long waves at k is off.
@@ -107,10 +107,6 @@ struct LongWaves {
 }
 
 impl LongWaves {
-    fn with(self, loose: usize) -> Self {
-        Self { loose, ..self }
-    }
-
     /// ω² of as many of these waves, those that are most like them, ascending.
     fn squares(&self, waves: &ModelWaves) -> Vec<f64> {
         let along = self.motions.adjoint() * &waves.vectors;
