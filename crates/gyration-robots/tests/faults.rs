@@ -38,6 +38,8 @@ fn loops_are_told() {
     let again = "<joint name=\"again\" type=\"fixed\"><parent link=\"world\"/><child link=\"shin\"/></joint></robot>";
     let told = of_change(URDF, "</robot>", again);
     assert!(told.contains("the link \"shin\" is the child of two joints") && told.contains("a loop"), "{told}");
+    let told = of_change(URDF, "<parent link=\"thigh\"/>", "<parent link=\"shin\"/>");
+    assert!(told.starts_with("22: the joint \"lower\" joins the link \"shin\" to itself"), "{told}");
     let told = of_change(URDF, "<parent link=\"world\"/>", "<parent link=\"shin\"/>");
     assert!(told.starts_with("11: the joints go round in a circle: no root leads to thigh, shin"), "{told}");
 }
@@ -48,8 +50,10 @@ fn masses_that_no_body_has_are_told() {
     assert_eq!(told, "12: inertial of link \"thigh\": the mass is -1.0 kg");
     let told = of_change(URDF, "izz=\"0.002\"", "izz=\"0.2\"");
     assert!(told.contains("no body has these principal moments of inertia: 2.2e-2, 2.2e-2, 2e-1 kg m²"), "{told}");
-    let told = of_change(URDF, "ixx=\"0.022\" ixy=\"0\" ixz=\"0\" iyy=\"0.022\" iyz=\"0\" izz=\"0.002\"", "ixx=\"0\"");
+    let told = of_change(URDF, "ixx=\"0.022\" ixy=\"0\" ixz=\"0\" iyy=\"0.022\" iyz=\"0\" izz=\"0.002\"", "ixx=\"0\" iyy=\"0\" izz=\"0\"");
     assert_eq!(told, "11: \"thigh\" has a mass and no inertia: a joint turns it");
+    let told = of_change(URDF, " iyy=\"0.022\"", "");
+    assert_eq!(told, "15: inertia of link \"thigh\": the attribute \"iyy\" is missing");
     let without = URDF.replacen("<mass value=\"1\"/>", "<mass value=\"0\"/>", 1);
     assert_eq!(refused(&without), ["11: \"thigh\" moves, carries others, and has no mass"]);
     let told = of_change(MJCF, "mass=\"0.7\"", "mass=\"-0.7\"");
@@ -75,6 +79,21 @@ fn numbers_that_are_none_are_told() {
     assert!(told.contains("eulerseq"), "{told}");
     let huge = URDF.replace("xyz=\"0 0 0\"", "xyz=\"0 1.7e308 0\"").replace("0 0 -0.5", "0 1.7e308 0");
     assert!(refused(&huge)[0].contains("leave their range"));
+}
+
+#[test]
+fn a_body_within_another_is_not_free_of_it() {
+    let model = |inside: &str| {
+        format!(
+            "<mujoco><worldbody><body name=\"a\"><freejoint/><geom size=\"1\"/>{inside}<geom size=\"1\"/></body></body>\
+             </worldbody></mujoco>"
+        )
+    };
+    for joint in ["<freejoint/>", "<joint type=\"free\"/>"] {
+        let told = refused(&model(&format!("<body name=\"b\">{joint}")));
+        assert_eq!(told, ["1: body \"b\": a body within another cannot be free of it"]);
+    }
+    assert!(tried(&model("<body name=\"b\"><joint/>")).is_ok());
 }
 
 #[test]

@@ -47,6 +47,8 @@ fn what_no_scene_has_of_a_urdf_is_listed_with_its_line() {
         lists(&import.left_out, line_of(URDF, place), what, why);
     }
     lists(&import.left_out, line_of(URDF, "type=\"prismatic\""), "limits 0.0, 0.05", "starts at zero");
+    // Products of inertia that are not written.
+    lists(&import.chosen, 18, "ixy = ixz = iyz = 0", "does not say");
     for finding in import.left_out.iter().chain(&import.chosen) {
         assert!(import.scene.contains(&format!("# - {finding}\n")), "{finding}");
     }

@@ -72,6 +72,12 @@ impl<'a, 'i> Reader<'a, 'i, '_> {
         for (joint, frame, childclass) in &contents.joints {
             joints.push(self.joint(*joint, (&pose.then(frame), name), *childclass));
         }
+        if outer.depth > 0
+            && let Some(free) = joints.iter().find(|joint| joint.connection.kind == ConnectionKind::Free)
+        {
+            let message = format!("{}: a body within another cannot be free of it", named(node));
+            self.report.fault(free.node, message, "put the body into the worldbody, or leave the joint out");
+        }
         let stands_still = joints.is_empty() && outer.link.is_none();
         if stands_still {
             self.fix(contents.geoms, &around);

@@ -3,7 +3,8 @@
 /// The reason, by the name of the element or attribute.
 pub(super) fn why(name: &str) -> &'static str {
     match name {
-        "material" | "rgba" | "group" | "texture" | "light" | "camera" | "skin" | "texcoord" | "texuniform"
+        "group" => "it concerns looks: geometry of every group has its mass",
+        "material" | "rgba" | "texture" | "light" | "camera" | "skin" | "texcoord" | "texuniform"
         | "texrepeat" | "visual" | "global" | "quality" | "headlight" | "map" | "scale" | "texturedir"
         | "discardvisual" => "it concerns looks only",
         "contype" | "conaffinity" | "condim" | "friction" | "solref" | "solimp" | "solmix" | "margin" | "gap"
@@ -35,8 +36,9 @@ pub(super) fn why(name: &str) -> &'static str {
         "magnetic" => "a scene has no magnetic field",
         "mocap" => "what stands still in a scene may move as its `motion` says",
         "gravcomp" => "write it as a `force` of the body",
-        "balanceinertia" | "boundmass" | "boundinertia" | "settotalmass" | "inertiagrouprange" | "shellinertia"
-        | "exactmeshinertia" | "inertia" => "inertias are those of the file, or of solid geometry",
+        "balanceinertia" | "boundmass" | "boundinertia" | "settotalmass" | "shellinertia" | "exactmeshinertia"
+        | "inertia" => "inertias are those of the file, or of solid geometry",
+        "inertiagrouprange" => "geometry of every group has its mass: write mass = \"0\" where it has none",
         "hfield" => "a scene has no height fields: write planes, or supports with a shape",
         "composite" | "flexcomp" | "attach" | "replicate" | "deformable" => {
             "MuJoCo expands it: save the expanded model and import that"

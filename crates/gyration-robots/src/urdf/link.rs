@@ -44,10 +44,17 @@ fn mass(inertial: Node<'_, '_>, report: &mut Report) -> Option<MassProperties> {
     let tensor = match inside("inertia") {
         None => Mat3::zeros(),
         Some(inertia) => {
-            let names = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
-            report.rest(inertia, Read { attributes: &names, elements: &[], why });
             let tag = Tag::alone(inertia);
-            let [xx, xy, xz, yy, yz, zz] = names.map(|name| tag.number(name, report).unwrap_or(0.0));
+            let (moments, products) = (["ixx", "iyy", "izz"], ["ixy", "ixz", "iyz"]);
+            report.rest(inertia, Read { attributes: &[moments, products].concat(), elements: &[], why });
+            let diagonal = moments.map(|name| tag.required(name, report));
+            let unwritten: Vec<&str> = products.into_iter().filter(|name| !tag.has(name)).collect();
+            if !unwritten.is_empty() {
+                let what = format!("{}: {} = 0", named(inertia), unwritten.join(" = "));
+                report.choose(Some(report.line(inertia)), what, "the file does not say it");
+            }
+            let [xy, xz, yz] = products.map(|name| tag.number(name, report).unwrap_or(0.0));
+            let [xx, yy, zz] = [diagonal[0]?, diagonal[1]?, diagonal[2]?];
             Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
         }
     };

@@ -90,6 +90,11 @@ fn joints<'a, 'i>(
         };
         let (parent, child) = (end("parent", report), end("child", report));
         let (Some(parent), Some(child)) = (parent, child) else { continue };
+        if parent == child {
+            let message = format!("the joint \"{name}\" joins the link \"{child}\" to itself");
+            report.fault(node, message, "write another link as its parent");
+            continue;
+        }
         if let Some(first) = found.get(child) {
             let message = format!(
                 "the link \"{child}\" is the child of two joints, \"{}\" and \"{name}\": a loop, and URDF has trees \
