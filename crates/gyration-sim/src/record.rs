@@ -190,7 +190,7 @@ impl<'a> Job<'a> {
 
     /// What must be told of the run before it begins.
     pub fn remarks(&self) -> Remarks {
-        Remarks::at_start(self.model, self.start, self.plan.tolerance.rtol)
+        Remarks::at_start(self.model, self.start, &self.plan)
     }
 
     fn finish(
@@ -212,7 +212,7 @@ impl<'a> Job<'a> {
         let checkpoint = simulation.checkpoint();
         if summary.outcome.is_final() {
             summary.row_hash = Some(sink.hash.to_string());
-            summary.warnings = Remarks::without_fluid(self.model, self.start, self.plan.tolerance.rtol).warnings;
+            summary.warnings = Remarks::without_fluid(self.model, self.start, &self.plan).warnings;
             if LeftOut::may_be(self.model) {
                 // What came near is asked of the rows: they must be there.
                 sink.writer.flush(&checkpoint)?;

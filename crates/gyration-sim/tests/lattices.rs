@@ -7,7 +7,7 @@ use gyration::tensor::{Mat3, Vec3};
 use gyration_scene::Scene;
 use gyration_sim::modes::bands::StrainedCell;
 use gyration_sim::survey::modes;
-use gyration_sim::{FirstSteps, Job, MemorySink, Outcome, Reason, Remarks, Simulation, Unwatched};
+use gyration_sim::{FirstSteps, Job, MemorySink, Outcome, Reason, Remarks, RunPlan, Simulation, Unwatched};
 
 /// Balls in a row that press on one another.
 fn balls(lattice: &str, body: &str, contact: &str) -> Scene {
@@ -139,7 +139,7 @@ fn images_that_matter_and_are_left_out_are_told() {
         );
         let scene = parsed(&text, &[]);
         let built = scene.built();
-        let told = Remarks::at_start(&built.model, &built.state, 1e-8).warnings;
+        let told = Remarks::at_start(&built.model, &built.state, &RunPlan::from(built)).warnings;
         told.iter().any(|warning| warning.contains("images of the lattice farther than 0.2 m are left out"))
     };
     for lattice in ["repeat = [6, 1, 1]", "", "repeat = [2, 1, 1]"] {

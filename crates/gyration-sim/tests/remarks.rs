@@ -430,3 +430,19 @@ fn a_crowd_without_a_reach_is_told_what_it_costs_and_which_changes_little() {
         }
     }
 }
+
+#[test]
+fn rest_before_what_drives_is_told() {
+    let scene = |rest: &str, force: &str| {
+        format!(
+            "world = {{ gravity = [0, 0, 0] }}\n[time]\nend = 3\nsample = 1\n{rest}\n[[body]]\nname = \"a\"\ndensity = \
+             1000\nshape = {{ sphere = {{ radius = 0.1 }} }}\nbody_force = [\"{force}\", \"0\", \"0\"]\n"
+        )
+    };
+    let rest = "stop_at_rest = { speed = 1e-6, hold = 0.2 }";
+    let notes = |text: String| remarks(&text).notes;
+    let [told] = &notes(scene(rest, "max(0, t - 1)"))[..] else { panic!("one note") };
+    assert!(told.contains("slower than 0.000001 m/s for 0.2 s, the run ends"), "{told}");
+    assert!(notes(scene("", "max(0, t - 1)")).is_empty());
+    assert!(notes(scene(rest, "x")).is_empty());
+}

@@ -11,6 +11,7 @@ use super::rest::{Approach, RestGap};
 use super::softness::SoftnessSurvey;
 use super::springs::SpringSurvey;
 use super::supports::SupportSurvey;
+use crate::plan::RunPlan;
 use crate::resistance::completed;
 use crate::survey::remarks::Remarks;
 use crate::wall_time::within_wall_time;
@@ -221,7 +222,7 @@ impl Survey {
             springs: SpringSurvey::all(model, start),
             meetings,
             pairs,
-            remarks: Remarks::at_start(model, start, scene.built().plan.rtol),
+            remarks: Remarks::at_start(model, start, &RunPlan::from(scene.built())),
         })
     }
 }

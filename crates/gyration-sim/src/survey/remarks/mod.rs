@@ -15,6 +15,7 @@ mod neighbor;
 mod plates;
 mod reaches;
 mod reachless;
+mod resting;
 mod rows;
 mod stored;
 mod strangers;
@@ -27,6 +28,7 @@ pub(crate) use endless::warning as endless;
 pub(crate) use fluid::LeftOut;
 pub(crate) use stretched::Stretched;
 
+use crate::plan::RunPlan;
 use gyration::model::Model;
 use gyration::state::State;
 use serde::Serialize;
@@ -43,16 +45,17 @@ pub struct Remarks {
 }
 
 impl Remarks {
-    /// Those of a model in its first state, which is to be run with this relative tolerance.
-    pub fn at_start(model: &Model, start: &State, rtol: f64) -> Self {
-        let mut remarks = Self::without_fluid(model, start, rtol);
+    /// Those of a model in its first state, which is to be run by a plan.
+    pub fn at_start(model: &Model, start: &State, plan: &RunPlan) -> Self {
+        let mut remarks = Self::without_fluid(model, start, plan);
         remarks.warnings.extend(LeftOut::at(model, start).warnings(model));
         remarks.warnings.extend(Stretched::at(model, start).warning(model));
         remarks
     }
 
     /// The same without what the fluid between bodies would do, and how far bodies are stretched in it.
-    pub(crate) fn without_fluid(model: &Model, start: &State, rtol: f64) -> Self {
+    pub(crate) fn without_fluid(model: &Model, start: &State, plan: &RunPlan) -> Self {
+        let rtol = plan.tolerance.rtol;
         let mut remarks = Self::default();
         strangers::remark(model, start, &mut remarks);
         remarks.notes.extend(plates::notes(model, start));
@@ -62,6 +65,7 @@ impl Remarks {
         remarks.notes.extend(begun::notes(model, start));
         remarks.notes.extend(reachless::notes(model, start));
         remarks.notes.extend(felt::notes(model));
+        remarks.notes.extend(resting::note(model, plan));
         remarks.warnings.extend(felt::warning(model));
         remarks.warnings.extend(meshes::warnings(model));
         remarks.warnings.extend(stored::warning(model, start));
