@@ -77,13 +77,19 @@ impl Integrator {
         Self::assemble(progress, vectors, options)
     }
 
-    /// The same after other integrations: what the numbers of y lack of twice their digits.
+    /// The same after other integrations, whose parts are its own: what the numbers of y lack of twice their digits, and
+    /// the stepper in charge with the votes on it. The widest of those before decides, of those that are implicit if
+    /// there are any: a whole is as stiff as the stiffest of its parts.
     ///
     /// # Panics
     /// If `low` has not the size of y.
     #[must_use]
-    pub fn succeeding(mut self, low: &[f64]) -> Self {
+    pub fn succeeding<'a>(mut self, low: &[f64], before: impl IntoIterator<Item = &'a Self>) -> Self {
         self.current.low[..self.progress.dimension].copy_from_slice(low);
+        let weight = |of: &&Self| (of.progress.stepper == Stepper::Implicit, of.progress.dimension);
+        if let Some(leading) = before.into_iter().max_by_key(weight) {
+            (self.progress.stepper, self.progress.switch) = (leading.progress.stepper, leading.progress.switch);
+        }
         self
     }
 

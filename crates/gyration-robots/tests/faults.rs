@@ -50,7 +50,11 @@ fn masses_that_no_body_has_are_told() {
     assert_eq!(told, "12: inertial of link \"thigh\": the mass is -1.0 kg");
     let told = of_change(URDF, "izz=\"0.002\"", "izz=\"0.2\"");
     assert!(told.contains("no body has these principal moments of inertia: 2.2e-2, 2.2e-2, 2e-1 kg m²"), "{told}");
-    let told = of_change(URDF, "ixx=\"0.022\" ixy=\"0\" ixz=\"0\" iyy=\"0.022\" iyz=\"0\" izz=\"0.002\"", "ixx=\"0\" iyy=\"0\" izz=\"0\"");
+    let told = of_change(
+        URDF,
+        "ixx=\"0.022\" ixy=\"0\" ixz=\"0\" iyy=\"0.022\" iyz=\"0\" izz=\"0.002\"",
+        "ixx=\"0\" iyy=\"0\" izz=\"0\"",
+    );
     assert_eq!(told, "11: \"thigh\" has a mass and no inertia: a joint turns it");
     let told = of_change(URDF, " iyy=\"0.022\"", "");
     assert_eq!(told, "15: inertia of link \"thigh\": the attribute \"iyy\" is missing");

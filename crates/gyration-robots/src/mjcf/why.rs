@@ -4,9 +4,10 @@
 pub(super) fn why(name: &str) -> &'static str {
     match name {
         "group" => "it concerns looks: geometry of every group has its mass",
-        "material" | "rgba" | "texture" | "light" | "camera" | "skin" | "texcoord" | "texuniform"
-        | "texrepeat" | "visual" | "global" | "quality" | "headlight" | "map" | "scale" | "texturedir"
-        | "discardvisual" => "it concerns looks only",
+        "material" | "rgba" | "texture" | "light" | "camera" | "skin" | "texcoord" | "texuniform" | "texrepeat"
+        | "visual" | "global" | "quality" | "headlight" | "map" | "scale" | "texturedir" | "discardvisual" => {
+            "it concerns looks only"
+        }
         "contype" | "conaffinity" | "condim" | "friction" | "solref" | "solimp" | "solmix" | "margin" | "gap"
         | "priority" | "exclude" | "pair" | "contact" | "o_margin" | "o_solref" | "o_solimp" | "o_friction" => {
             "a scene says who meets whom, and by which law, in [[contact]]"

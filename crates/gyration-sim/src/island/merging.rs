@@ -115,7 +115,8 @@ impl Island {
             low.extend_from_slice(&island.integrator.state_low()[own]);
         }
         let options = Options { initial_step: step, ..plan.options };
-        this.integrator = Integrator::new(time, &numbers, &vec![0.0; this.works().len()], options).succeeding(&low);
+        this.integrator = Integrator::new(time, &numbers, &vec![0.0; this.works().len()], options)
+            .succeeding(&low, before.iter().map(|island| &island.integrator));
         this.take_over(before);
         this.state.in_play = in_play;
         // The planes of the rates there are looked for from where they are.

@@ -235,15 +235,15 @@ impl Patch {
     /// The smallest gap [m] on the patch.
     pub(crate) fn smallest_gap(&self, field: &GapField) -> f64 {
         match &self.primitive {
-            Primitive::Sphere(sphere) if field.lack.is_some() => sphere.gaps(&self.offset, field).0,
+            Primitive::Sphere(sphere) => sphere.gaps(&self.offset, field).0,
             _ => field.gap(&self.support(&-field.direction)),
         }
     }
 
     /// Refuses a field whose smallest gap on the patch is not a positive finite number beyond rounding.
     pub(crate) fn check_gap(&self, field: &GapField) -> Result<(), GapClosed> {
-        let point = self.support(&-field.direction);
-        let (gap, fall) = (self.smallest_gap(field), field.direction.dot(&point));
+        let gap = self.smallest_gap(field);
+        let fall = gap - field.height;
         // A gap within the rounding of its two terms has no known sign.
         let digits = if self.keeps_digits() && field.lack.is_some() { f64::EPSILON } else { 1.0 };
         let rounding = 16.0 * f64::EPSILON * digits * (field.height.abs() + fall.abs());
