@@ -1,8 +1,8 @@
 //! What one call of the mechanics costs: rates and Jacobian of a body near a plane, rates of two bodies that meet and
 //! of a soft cube alone.
 //!
-//! The floor is that of the moments of a box: twelve triangles, of which each takes 518 products and sums for the loads
-//! of three laws, 1,008 with their derivatives (counted in the instructions of both, `bench/2026-11-21.md`).
+//! The floor is that of the moments of a box: six parallelograms, of which each takes 496 products and sums for the loads
+//! of three laws, 1,060 with their derivatives (counted in the formulas, `bench/2026-12-01-faces.md`).
 
 use crate::arithmetic::Arithmetic;
 use crate::clock::seconds_in_batches;
@@ -18,8 +18,8 @@ use std::hint::black_box;
 use std::path::Path;
 
 /// Products and sums of the loads of a box under three laws, and of their derivatives.
-pub const LOADS_OF_BOX: f64 = 12.0 * 518.0;
-pub const SLOPES_OF_BOX: f64 = 12.0 * 1008.0;
+pub const LOADS_OF_BOX: f64 = 6.0 * 496.0;
+pub const SLOPES_OF_BOX: f64 = 6.0 * 1060.0;
 /// Exponents of repulsion, and of damping and friction.
 const EXPONENTS: (f64, f64) = (6.0, 3.0);
 /// Shapes that meet their equals, and the distance of centres at which they nearly touch \[m\].
@@ -72,7 +72,7 @@ pub fn rows(arithmetic: &Arithmetic, size: Size, add: &mut impl FnMut(BenchmarkR
     for mut kernel in kernels() {
         let seconds = seconds_in_batches(batch, || kernel.call());
         let floor = match kernel.key.as_str() {
-            "rates/box" => Some((LOADS_OF_BOX, "the moments of twelve triangles")),
+            "rates/box" => Some((LOADS_OF_BOX, "the moments of six faces")),
             "jacobian/box" => Some((SLOPES_OF_BOX, "the same with derivatives")),
             _ => None,
         };

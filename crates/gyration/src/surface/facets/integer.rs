@@ -6,11 +6,12 @@
 //!
 //! where h_M is the complete homogeneous symmetric polynomial (Carlson's R with its Euler transformation, DLMF 19.16
 //! and 19.19). Adding a variable is h_k(…, u) = h_k(…) + u h_(k−1)(…, u). All terms are positive: no sorting, no
-//! splitting, no cancellation, however the gaps compare.
+//! splitting, no cancellation, however the gaps compare. A parallelogram is two of them: the one at its lowest corner,
+//! and the one of the three others.
 
 use pulp::Simd;
 
-use super::triangle::{Triangle, Weights};
+use super::facet::{Facet, Weights};
 use crate::simd::F64s;
 
 /// The largest exponent taken: the cost grows with ν, and that of a split triangle does not.
@@ -45,12 +46,27 @@ impl IntegerExponent {
         Some(Self { degree: degree as usize, factor: 1.0 / product })
     }
 
-    /// The weights J_ab of triangles up to the order that this was prepared for.
+    /// The weights J_ab of facets up to the order that this was prepared for.
     #[inline(always)]
-    pub fn weights<S: Simd, const ORDER: usize>(&self, triangle: &Triangle<S>, weights: &mut Weights<S>) {
-        let u = triangle.inverses;
+    pub fn weights<S: Simd, const ORDER: usize, const WHOLE: bool>(
+        &self,
+        facet: &Facet<S, WHOLE>,
+        weights: &mut Weights<S>,
+    ) {
+        let [low, middle, high] = facet.inverses;
+        self.of_triangle::<S, ORDER>([low, middle, high], facet.spanned, weights);
+        if WHOLE {
+            let mut rest = *weights;
+            self.of_triangle::<S, ORDER>([middle, facet.farthest.1, high], facet.spanned, &mut rest);
+            add_rest::<S, ORDER>(weights, &rest);
+        }
+    }
+
+    /// Those of a triangle with the reciprocal gaps u.
+    #[inline(always)]
+    fn of_triangle<S: Simd, const ORDER: usize>(&self, u: [F64s<S>; 3], spanned: F64s<S>, weights: &mut Weights<S>) {
         let h = Homogeneous::raised::<ORDER>(self.degree, &u);
-        let scale = (triangle.twice_area * self.factor) * ((u[0] * u[1]) * u[2]);
+        let scale = (spanned * self.factor) * ((u[0] * u[1]) * u[2]);
         match ORDER {
             0 => weights[0] = scale * h.base[2],
             1 => {
@@ -70,6 +86,33 @@ impl IntegerExponent {
             _ => third(weights, &u, &h.three, scale),
         }
     }
+}
+
+/// Adds the triangle of V₁, V₁ + E₂ and V₂ of a parallelogram, with μ₁ and μ₂ the coordinates of the last two: λ₁ = 1 −
+/// μ₂, λ₂ = μ₁ + μ₂.
+#[inline(always)]
+fn add_rest<S: Simd, const ORDER: usize>(weights: &mut Weights<S>, j: &Weights<S>) {
+    weights[0] += j[0];
+    if ORDER == 0 {
+        return;
+    }
+    let along = j[1] + j[2];
+    weights[1] += j[0] - j[2];
+    weights[2] += along;
+    if ORDER == 1 {
+        return;
+    }
+    let (mixed, squared) = (j[4] + j[5], (j[3] + j[4] * 2.0) + j[5]);
+    weights[3] += (j[0] - j[2] * 2.0) + j[5];
+    weights[4] += along - mixed;
+    weights[5] += squared;
+    if ORDER == 2 {
+        return;
+    }
+    weights[6] += (j[0] - j[2] * 3.0) + (j[5] * 3.0 - j[9]);
+    weights[7] += (along - mixed * 2.0) + (j[8] + j[9]);
+    weights[8] += squared - ((j[7] + j[8] * 2.0) + j[9]);
+    weights[9] += (j[6] + j[9]) + (j[7] + j[8]) * 3.0;
 }
 
 /// Up to the third order from h_M with three more corners.

@@ -1,18 +1,19 @@
 //! Flat facets: triangles, over which the contact integrals are exact whatever the gap.
 //!
-//! The triangles are kept in packs of eight, corner by corner and component by component (`pack`), and a call works on
-//! as many of them at once as the registers of the processor hold (`simd`): gaps, corners put in order, the weights of
-//! each request (`plan`), tensors, sums. A mesh of any size needs no scratch memory.
+//! Two that stand behind each other and make up a parallelogram, as the faces of a box do, are integrated as one. Facets
+//! are kept in packs of eight, corner by corner and component by component (`pack`), and a call works on as many of them
+//! at once as the registers of the processor hold (`simd`): gaps, corners put in order, the weights of each request
+//! (`plan`), tensors, sums. A mesh of any size needs no scratch memory.
 //!
 //! Facets are for polyhedra and meshes: a cylinder made of facets does not roll. X is relative to the centre of mass.
 
+mod facet;
 mod integer;
 mod oriented;
 mod pack;
 mod plan;
 mod split;
 mod sums;
-mod triangle;
 
 pub(crate) use plan::{BATCH, FacetPlan};
 
@@ -20,7 +21,7 @@ use crate::simd::WIDTH;
 use crate::surface::{GapClosed, GapField, MomentRequest, Moments, OrientedMoments};
 use crate::tensor::{Mat3, Vec3};
 use oriented::add_oriented;
-use pack::{PointPack, TrianglePack};
+use pack::{Corners, FacetPack, Outline, PointPack};
 use sums::{add_deformed, add_moments, smallest_gap};
 
 /// Vertices from which on registers pay.
@@ -34,7 +35,7 @@ pub struct Facets {
     /// Triangles as places of vertices.
     triangles: Vec<[usize; 3]>,
     points: Vec<PointPack>,
-    packs: Vec<TrianglePack>,
+    packs: Vec<FacetPack>,
     area: f64,
 }
 
@@ -101,7 +102,7 @@ impl Facets {
     fn packed(vertices: &[Vec3], triangles: &[[usize; 3]]) -> Self {
         let mut facets = Self::default();
         let mut places = vec![None; vertices.len()];
-        let mut areas = Vec::with_capacity(triangles.len());
+        let mut proper = Vec::with_capacity(triangles.len());
         for corners in triangles {
             let [a, b, c] = corners.map(|corner| vertices[corner]);
             let area_vector = (b - a).cross(&(c - a));
@@ -114,11 +115,25 @@ impl Facets {
                     facets.vertices.len() - 1
                 })
             }));
-            areas.push(([a, b, c], area_vector));
+            proper.push([a, b, c]);
             facets.area += 0.5 * area_vector.norm();
         }
         facets.points = facets.vertices.chunks(WIDTH).map(PointPack::new).collect();
-        facets.packs = areas.chunks(WIDTH).map(TrianglePack::new).collect();
+        let (mut parallelograms, mut alone) = (Vec::new(), Vec::new());
+        let mut rest = &proper[..];
+        while let [first, others @ ..] = rest {
+            if let Some(joined) = others.first().and_then(|second| Corners::joined(first, second)) {
+                parallelograms.push(joined);
+                rest = &others[1..];
+            } else {
+                let [a, b, c] = *first;
+                alone.push(Corners([a, b, c, c]));
+                rest = others;
+            }
+        }
+        let packed = |outline| move |facets: &[Corners]| FacetPack::new(outline, facets);
+        facets.packs = parallelograms.chunks(WIDTH).map(packed(Outline::Parallelogram)).collect();
+        facets.packs.extend(alone.chunks(WIDTH).map(packed(Outline::Triangle)));
         facets
     }
 

@@ -1,16 +1,16 @@
-//! Moments over deformed triangles weighted with products of the components of their current normals.
+//! Moments over deformed facets weighted with products of the components of their current normals.
 //!
-//! The deformed triangle has the area vector v = cof(P) 2A N, hence the area factor k = |v|/2A and the normal m =
-//! v/|v|, both constant: moments weighted with m_a m_b are those of the triangle times that number. So the plan runs
-//! once on a register of triangles, into rows of its own, and the rows are multiplied and added to those of the six
-//! pairs, lane by lane. For requests of order 0 the fifteen products of four components are formed likewise.
+//! The deformed facet has the area vector v = cof(P) E₁×E₂, hence the area factor k = |v|/|E₁×E₂| and the normal m =
+//! v/|v|, both constant: moments weighted with m_a m_b are those of the facet times that number. So the plan runs once
+//! on a register of facets, into rows of its own, and the rows are multiplied and added to those of the six pairs, lane
+//! by lane. For requests of order 0 the fifteen products of four components are formed likewise.
 
 use pulp::{Simd, WithSimd};
 
-use super::pack::{SplatField, TrianglePack, Vector};
+use super::facet::Facet;
+use super::pack::{FacetPack, Outline, SplatField, Vector};
 use super::plan::{BATCH, FacetPlan, MOST_ROWS};
 use super::sums::{FacetRequest, GapsSeen, SplatMatrix, add_folded, length};
-use super::triangle::Triangle;
 use crate::simd::{F64s, Row, WIDTH, dispatch, fold};
 use crate::surface::oriented::{FOURTH, PAIRS};
 use crate::surface::{GapField, OrientedMoments};
@@ -18,7 +18,7 @@ use crate::tensor::Mat3;
 
 /// Adds the oriented moments of a plan to `out`; leaves it alone and returns false if a gap is not positive and finite.
 pub(super) fn add_oriented(
-    packs: &[TrianglePack],
+    packs: &[FacetPack],
     field: &GapField,
     cofactor: &Mat3,
     plan: &FacetPlan,
@@ -56,9 +56,9 @@ fn in_rows<const ROWS: usize>(request: &FacetRequest, out: &mut [OrientedMoments
 /// The pass over packs; whether every gap is positive and finite.
 struct OrientedPass<'a> {
     request: &'a FacetRequest<'a>,
-    /// Rows of one register of triangles.
+    /// Rows of one register of facets.
     own: &'a mut [Row],
-    /// The same weighted with the pairs, summed over all triangles.
+    /// The same weighted with the pairs, summed over all facets.
     pairs: [&'a mut [Row]; PAIRS.len()],
     fourth: &'a mut [[Row; FOURTH.len()]; BATCH],
 }
@@ -75,13 +75,22 @@ impl WithSimd for OrientedPass<'_> {
         for pack in packs {
             for register in 0..pack.registers::<S>().min(WIDTH / S::F64_LANES) {
                 let vector = cofactor.image(&pack.area_vectors(simd, register));
-                let twice_area = length(&vector);
-                let triangle = Triangle::new(pack, register, &field, twice_area);
-                seen.add(&triangle);
+                let spanned = length(&vector);
                 let used = plan.row_count().min(self.own.len());
                 self.own[..used].fill([0.0; WIDTH]);
-                plan.add(&triangle, 0, self.own);
-                self.add(&products(&vector, twice_area), used, register);
+                match pack.outline {
+                    Outline::Triangle => {
+                        let facet = Facet::<S, false>::new(pack, register, &field, spanned);
+                        seen.add(&facet);
+                        plan.add(&facet, 0, self.own);
+                    }
+                    Outline::Parallelogram => {
+                        let facet = Facet::<S, true>::new(pack, register, &field, spanned);
+                        seen.add(&facet);
+                        plan.add(&facet, 0, self.own);
+                    }
+                }
+                self.add(&products(&vector, spanned), used, register);
             }
         }
         seen.are_open()
@@ -89,7 +98,7 @@ impl WithSimd for OrientedPass<'_> {
 }
 
 impl OrientedPass<'_> {
-    /// Adds the rows of one register of triangles, weighted with the products m_a m_b and their squares.
+    /// Adds the rows of one register of facets, weighted with the products m_a m_b and their squares.
     #[inline(always)]
     fn add<S: Simd>(&mut self, products: &[F64s<S>; PAIRS.len()], used: usize, register: usize) {
         let simd = products[0].simd;
@@ -127,7 +136,7 @@ const fn pair(a: usize, b: usize) -> usize {
     a * (5 - a) / 2 + b
 }
 
-/// m_a m_b from the area vectors; those of triangles without area, which have no normal, are zero.
+/// m_a m_b from the area vectors; those of facets without area, which have no normal, are zero.
 #[inline(always)]
 fn products<S: Simd>(vector: &Vector<S>, length: F64s<S>) -> [F64s<S>; PAIRS.len()] {
     let zero = F64s::splat(length.simd, 0.0);

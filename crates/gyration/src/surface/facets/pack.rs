@@ -1,9 +1,9 @@
-//! Triangles and vertices laid out for lanes: eight of each in a pack, component by component.
+//! Facets and vertices laid out for lanes: eight of each in a pack, component by component.
 //!
-//! A pack of triangles holds the coordinates of its corners, so that nothing is gathered in a call: the gaps of a
-//! vertex are computed anew in every triangle that it belongs to, by the same operations, to the same bytes. Unused
-//! places repeat the last triangle without its area, or the last vertex. A body that deforms needs the area vectors 2A
-//! N too: their images under the cofactor of P are those of the deformed triangles.
+//! A pack of facets, all of them triangles or all parallelograms, holds the coordinates of its corners, so that nothing
+//! is gathered in a call: the gaps of a vertex are computed anew in every facet that it belongs to, by the same
+//! operations, to the same bytes. Unused places repeat the last facet without its area, or the last vertex. A body that
+//! deforms needs the area vectors E₁×E₂ too: their images under the cofactor of P are those of the deformed facets.
 
 use pulp::Simd;
 
@@ -12,6 +12,9 @@ use crate::surface::GapField;
 use crate::surface::gap::GapLack;
 use crate::tensor::Vec3;
 
+/// How far the corners of a parallelogram may be off, as a part of its edges: their rounding.
+const FLAT: f64 = 4.0 * f64::EPSILON;
+
 /// Three components in lanes.
 pub(super) type Vector<S> = [F64s<S>; 3];
 
@@ -19,14 +22,48 @@ pub(super) type Vector<S> = [F64s<S>; 3];
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PointPack(pub [Row; 3]);
 
-/// Eight triangles.
+/// What facets are bounded by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Outline {
+    Triangle,
+    Parallelogram,
+}
+
+/// A facet from its corners: a, a + E₁, a + E₂ and, of a parallelogram, the one opposite to a.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Corners(pub [Vec3; 4]);
+
+/// Eight facets of one outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
-pub(super) struct TrianglePack {
-    corners: [PointPack; 3],
-    twice_area: Row,
+pub(super) struct FacetPack {
+    pub outline: Outline,
+    corners: [PointPack; 4],
+    /// |E₁×E₂| [m²].
+    spanned: Row,
     area_vectors: PointPack,
     used: usize,
+}
+
+impl Corners {
+    /// E₁×E₂ [m²].
+    pub fn area_vector(&self) -> Vec3 {
+        let [a, b, c, _] = self.0;
+        (b - a).cross(&(c - a))
+    }
+
+    /// The parallelogram that two triangles next to each other make up, if it is one.
+    pub fn joined(one: &[Vec3; 3], other: &[Vec3; 3]) -> Option<Self> {
+        // The corner of each that the other has not.
+        let alone = |own: &[Vec3; 3], other: &[Vec3; 3]| {
+            let mut alone = (0..3).filter(|corner| !other.contains(&own[*corner]));
+            Some(alone.next()?).filter(|_| alone.next().is_none())
+        };
+        let (from, opposite) = (alone(one, other)?, other[alone(other, one)?]);
+        let [a, b, c] = [one[from], one[(from + 1) % 3], one[(from + 2) % 3]];
+        let (off, size) = (b + c - a - opposite, (b - a).amax().max((c - a).amax()));
+        (off.amax() <= FLAT * size).then_some(Self([a, b, c, opposite]))
+    }
 }
 
 impl PointPack {
@@ -51,45 +88,53 @@ impl PointPack {
     }
 }
 
-impl TrianglePack {
-    /// The triangles given by corners and twice the area vector [m²]; at most eight.
-    pub fn new(triangles: &[([Vec3; 3], Vec3)]) -> Self {
+impl FacetPack {
+    /// At most eight facets.
+    pub fn new(outline: Outline, facets: &[Corners]) -> Self {
         let corner = |k: usize| {
-            let points: Vec<Vec3> = triangles.iter().map(|(corners, _)| corners[k]).collect();
+            let points: Vec<Vec3> = facets.iter().map(|Corners(corners)| corners[k]).collect();
             PointPack::new(&points)
         };
-        let (mut twice_area, mut area_vectors) = ([0.0; WIDTH], [Vec3::zeros(); WIDTH]);
-        for (place, (_, vector)) in triangles.iter().enumerate().take(WIDTH) {
-            (twice_area[place], area_vectors[place]) = (vector.norm(), *vector);
+        let (mut spanned, mut area_vectors) = ([0.0; WIDTH], [Vec3::zeros(); WIDTH]);
+        for (place, corners) in facets.iter().enumerate().take(WIDTH) {
+            let vector = corners.area_vector();
+            (spanned[place], area_vectors[place]) = (vector.norm(), vector);
         }
         Self {
-            corners: [corner(0), corner(1), corner(2)],
-            twice_area,
+            outline,
+            corners: [corner(0), corner(1), corner(2), corner(3)],
+            spanned,
             area_vectors: PointPack::new(&area_vectors),
-            used: triangles.len(),
+            used: facets.len(),
         }
     }
 
-    /// How many registers of this width the triangles fill.
+    /// How many registers of this width the facets fill.
     #[inline(always)]
     pub fn registers<S: Simd>(&self) -> usize {
         self.used.div_ceil(S::F64_LANES)
     }
 
-    /// The corners of the triangles in a register.
+    /// The first three corners of the facets in a register.
     #[inline(always)]
     pub fn corners<S: Simd>(&self, simd: S, register: usize) -> [Vector<S>; 3] {
-        let [a, b, c] = &self.corners;
+        let [a, b, c, _] = &self.corners;
         [a.load(simd, register), b.load(simd, register), c.load(simd, register)]
     }
 
-    /// Twice the areas of the triangles in a register [m²].
+    /// The corners of parallelograms that are opposite to the first.
     #[inline(always)]
-    pub fn twice_area<S: Simd>(&self, simd: S, register: usize) -> F64s<S> {
-        F64s::load(simd, &self.twice_area, register)
+    pub fn opposite<S: Simd>(&self, simd: S, register: usize) -> Vector<S> {
+        self.corners[3].load(simd, register)
     }
 
-    /// Twice the area vectors of the triangles in a register [m²].
+    /// |E₁×E₂| of the facets in a register [m²].
+    #[inline(always)]
+    pub fn spanned<S: Simd>(&self, simd: S, register: usize) -> F64s<S> {
+        F64s::load(simd, &self.spanned, register)
+    }
+
+    /// E₁×E₂ of the facets in a register [m²].
     #[inline(always)]
     pub fn area_vectors<S: Simd>(&self, simd: S, register: usize) -> Vector<S> {
         self.area_vectors.load(simd, register)

@@ -1,22 +1,22 @@
-//! How each of a few requests is evaluated over triangles; made once for each contact.
+//! How each of a few requests is evaluated over facets; made once for each contact.
 //!
 //! In order of cost:
 //!
 //! 1. *lowered* from another request with the exponent ν + 1 and a higher order: d^−ν = d · d^−(ν+1), and d is linear in λ;
 //! 2. *integer*: for an integer ν ≥ order + 3 the integral is a polynomial in the reciprocal gaps (`integer`);
-//! 3. *split* along the level line of the middle corner (`split`), for any exponent and the logarithm.
+//! 3. *split* along the level lines of the middle corners (`split`), for any exponent and the logarithm.
 //!
 //! Derivatives ask for (ν, n) and (ν + 1, n + 1) together, so that their first half comes almost free.
 
 use pulp::Simd;
 
+use super::facet::{COMPONENTS, Facet, LevelSplit, Weights, add_tensors};
 use super::integer::IntegerExponent;
 use super::split::SplitKernel;
-use super::triangle::{COMPONENTS, LevelSplit, Triangle, Weights, add_tensors};
 use crate::simd::{F64s, Row};
 use crate::surface::{Kernel, MomentRequest};
 
-/// Requests that share one pass over the triangles.
+/// Requests that share one pass over the facets.
 pub(crate) const BATCH: usize = 4;
 
 /// The most rows of sums that a plan asks for.
@@ -112,19 +112,19 @@ impl FacetPlan {
         self.places[request]
     }
 
-    /// Adds the moments of the triangles in a register to the rows of sums.
+    /// Adds the moments of the facets in a register to the rows of sums.
     #[inline(always)]
-    pub(super) fn add<S: Simd>(&self, triangle: &Triangle<S>, register: usize, sums: &mut [Row]) {
-        let mut weights = [F64s::splat(triangle.twice_area.simd, 0.0); 10];
-        let levels = if self.splits { Some(triangle.levels(self.needs_logs)) } else { None };
+    pub(super) fn add<S: Simd, const WHOLE: bool>(&self, facet: &Facet<S, WHOLE>, register: usize, sums: &mut [Row]) {
+        let mut weights = [F64s::splat(facet.spanned.simd, 0.0); 10];
+        let levels = if self.splits { Some(facet.levels(self.needs_logs)) } else { None };
         for step in &self.steps[..self.count] {
             let Some(sums) = sums.get_mut(step.row..) else { return };
-            let at = RegisterOfTriangles { triangle, levels: levels.as_ref(), register };
+            let at = RegisterOfFacets { facet, levels: levels.as_ref(), register };
             match step.order {
-                0 => step.add::<S, 0>(&at, &mut weights, sums),
-                1 => step.add::<S, 1>(&at, &mut weights, sums),
-                2 => step.add::<S, 2>(&at, &mut weights, sums),
-                _ => step.add::<S, 3>(&at, &mut weights, sums),
+                0 => step.add::<S, 0, WHOLE>(&at, &mut weights, sums),
+                1 => step.add::<S, 1, WHOLE>(&at, &mut weights, sums),
+                2 => step.add::<S, 2, WHOLE>(&at, &mut weights, sums),
+                _ => step.add::<S, 3, WHOLE>(&at, &mut weights, sums),
             };
         }
     }
@@ -149,9 +149,9 @@ fn lowers(from: &MomentRequest, to: &MomentRequest) -> bool {
     }
 }
 
-/// The triangles of a register, which of the registers of a row it is, and what a split needs.
-struct RegisterOfTriangles<'a, S: Simd> {
-    triangle: &'a Triangle<S>,
+/// The facets of a register, which of the registers of a row it is, and what a split needs.
+struct RegisterOfFacets<'a, S: Simd, const WHOLE: bool> {
+    facet: &'a Facet<S, WHOLE>,
     levels: Option<&'a LevelSplit<S>>,
     register: usize,
 }
@@ -159,29 +159,29 @@ struct RegisterOfTriangles<'a, S: Simd> {
 impl PlannedRequest {
     /// Finds the weights of its request, up to ORDER, and adds the moments to rows of sums.
     #[inline(always)]
-    fn add<S: Simd, const ORDER: usize>(
+    fn add<S: Simd, const ORDER: usize, const WHOLE: bool>(
         &self,
-        at: &RegisterOfTriangles<S>,
+        at: &RegisterOfFacets<S, WHOLE>,
         weights: &mut Weights<S>,
         sums: &mut [Row],
     ) {
         match (&self.method, at.levels) {
-            (WeightMethod::Integer(integer), _) => integer.weights::<S, ORDER>(at.triangle, weights),
-            (WeightMethod::Split(split), Some(levels)) => split.weights::<S, ORDER>(at.triangle, levels, weights),
-            _ => lower::<S, ORDER>(weights, at.triangle),
+            (WeightMethod::Integer(integer), _) => integer.weights::<S, ORDER, WHOLE>(at.facet, weights),
+            (WeightMethod::Split(split), Some(levels)) => split.weights::<S, ORDER, WHOLE>(at.facet, levels, weights),
+            _ => lower::<S, ORDER, WHOLE>(weights, at.facet),
         }
-        add_tensors::<S, ORDER>(sums, weights, at.triangle, at.register);
+        add_tensors::<S, ORDER, WHOLE>(sums, weights, at.facet, at.register);
     }
 }
 
 /// Lowers weights from ν + 1 to ν, up to ORDER: J_ab(ν) = d₀ J_ab + (d₁ − d₀) J_(a+1)b + (d₂ − d₀) J_a(b+1), all at ν +
 /// 1; every term is positive.
 #[inline(always)]
-fn lower<S: Simd, const ORDER: usize>(weights: &mut Weights<S>, triangle: &Triangle<S>) {
+fn lower<S: Simd, const ORDER: usize, const WHOLE: bool>(weights: &mut Weights<S>, facet: &Facet<S, WHOLE>) {
     /// Places of J_(a+1)b and J_a(b+1) for the place of J_ab; they come after it, and are still those of ν + 1.
     const RAISED: [(usize, usize); 6] = [(1, 2), (3, 4), (4, 5), (6, 7), (7, 8), (8, 9)];
     const COUNT: [usize; 4] = [1, 3, 6, 6];
-    let [low, middle, high] = triangle.gaps;
+    let [low, middle, high] = facet.gaps;
     let (to_middle, to_high) = (middle - low, high - low);
     for (place, (one, two)) in RAISED.into_iter().enumerate().take(COUNT[ORDER]) {
         weights[place] = (low * weights[place] + to_middle * weights[one]) + to_high * weights[two];

@@ -1,25 +1,25 @@
-//! The passes over packs: moments of all triangles, smallest gap of all vertices.
+//! The passes over packs: moments of all facets, smallest gap of all vertices.
 //!
 //! Sums are kept in rows of eight logical lanes, whatever the width of the registers, and folded once, at the end.
 
 use pulp::{Simd, WithSimd};
 
-use super::pack::{PointPack, SplatField, TrianglePack, Vector};
+use super::facet::Facet;
+use super::pack::{FacetPack, Outline, PointPack, SplatField, Vector};
 use super::plan::{FacetPlan, MOST_ROWS};
-use super::triangle::Triangle;
 use crate::simd::{F64s, Row, WIDTH, dispatch, fold, registers_mut};
 use crate::surface::{GapField, Moments};
 use crate::tensor::{Mat3, Vec3};
 
 /// Adds the moments of a plan over packs to `out`; leaves it alone and returns false if a gap is not positive and
 /// finite.
-pub(super) fn add_moments(packs: &[TrianglePack], field: &GapField, plan: &FacetPlan, out: &mut [Moments]) -> bool {
+pub(super) fn add_moments(packs: &[FacetPack], field: &GapField, plan: &FacetPlan, out: &mut [Moments]) -> bool {
     add::<false>(&FacetRequest { packs, field, plan, cofactor: &Mat3::identity() }, out)
 }
 
 /// The same per deformed area, given the cofactor of P.
 pub(super) fn add_deformed(
-    packs: &[TrianglePack],
+    packs: &[FacetPack],
     field: &GapField,
     cofactor: &Mat3,
     plan: &FacetPlan,
@@ -70,7 +70,7 @@ pub(super) fn add_folded(moments: &mut Moments, rows: &[Row], order: usize) {
 /// What is integrated over which packs.
 #[derive(Clone, Copy)]
 pub(super) struct FacetRequest<'a> {
-    pub packs: &'a [TrianglePack],
+    pub packs: &'a [FacetPack],
     pub field: &'a GapField,
     pub plan: &'a FacetPlan,
     /// det P P⁻ᵀ, for deformed areas.
@@ -94,14 +94,23 @@ impl<const DEFORMED: bool> WithSimd for MomentPass<'_, DEFORMED> {
         let mut seen = GapsSeen::new(simd);
         for pack in packs {
             for register in 0..pack.registers::<S>().min(WIDTH / S::F64_LANES) {
-                let twice_area = if DEFORMED {
+                let spanned = if DEFORMED {
                     length(&cofactor.image(&pack.area_vectors(simd, register)))
                 } else {
-                    pack.twice_area(simd, register)
+                    pack.spanned(simd, register)
                 };
-                let triangle = Triangle::new(pack, register, &field, twice_area);
-                seen.add(&triangle);
-                plan.add(&triangle, register, self.rows);
+                match pack.outline {
+                    Outline::Triangle => {
+                        let facet = Facet::<S, false>::new(pack, register, &field, spanned);
+                        seen.add(&facet);
+                        plan.add(&facet, register, self.rows);
+                    }
+                    Outline::Parallelogram => {
+                        let facet = Facet::<S, true>::new(pack, register, &field, spanned);
+                        seen.add(&facet);
+                        plan.add(&facet, register, self.rows);
+                    }
+                }
             }
         }
         seen.are_open()
@@ -122,10 +131,10 @@ impl<S: Simd> GapsSeen<S> {
     }
 
     #[inline(always)]
-    pub fn add(&mut self, triangle: &Triangle<S>) {
-        let [low, middle, high] = triangle.gaps;
+    pub fn add<const WHOLE: bool>(&mut self, facet: &Facet<S, WHOLE>) {
+        let [low, middle, high] = facet.gaps;
         self.lowest = low.less_than(self.lowest).select(low, self.lowest);
-        self.total += (low + middle) + high;
+        self.total += (low + middle) + (high + facet.farthest.0);
     }
 
     /// Whether all of them are positive and finite.
@@ -238,15 +247,62 @@ mod tests {
         (rows.iter().map(fold).collect(), arch.dispatch(Smallest { points: &facets.points, field }))
     }
 
+    fn kernels() -> impl Iterator<Item = Kernel> {
+        let powers = [6.0, 7.0, 3.0, 4.0, 6.3, 7.3, 1.0, 2.2, -1.0, 12.0].map(Kernel::Power);
+        powers.into_iter().chain([Kernel::Log])
+    }
+
+    /// A turned box, and the same of triangles in an order in which no two behind each other make up a face.
+    fn boxes() -> [Facets; 2] {
+        let turn = *nalgebra::Rotation3::new(Vec3::new(0.4, -1.1, 0.3)).matrix();
+        let whole = Facets::cuboid(&Vec3::new(0.1, 0.14, 0.2)).transformed(&turn, &Vec3::zeros());
+        let order = (0..12).step_by(2).chain((1..12).step_by(2));
+        let triangles: Vec<_> = order.map(|place| whole.triangles[place]).collect();
+        let halves = Facets::new(&whole.vertices, &triangles).unwrap();
+        assert_eq!([&whole, &halves].map(|facets| facets.packs.len()), [1, 2]);
+        [whole, halves]
+    }
+
+    #[test]
+    fn parallelograms_are_two_triangles() {
+        let [whole, halves] = boxes();
+        let size = 0.25;
+        let mut worst: f64 = 0.0;
+        let directions =
+            [Vec3::z(), Vec3::new(0.6, 0.0, 0.8), whole.vertices[3] - whole.vertices[1], whole.vertices[5]].into_iter();
+        let near = 1.0 + 1e-7;
+        for (direction, least) in directions.flat_map(|along| [1e-9, 1e-5, 0.01, 3.0].map(|least| (along, least))) {
+            for turned in [1.0, near] {
+                let direction = direction.component_mul(&Vec3::new(1.0, turned, 1.0)).normalize();
+                let lowest = whole.smallest_gap(&GapField::new(0.0, direction)).0;
+                let field = GapField::new(least - lowest, direction);
+                for kernel in kernels() {
+                    for order in 0..4 {
+                        let requests = [MomentRequest { kernel, order }];
+                        let [mut one, mut other] = [[Moments::default()]; 2];
+                        whole.moments(&field, &requests, &mut one).unwrap();
+                        halves.moments(&field, &requests, &mut other).unwrap();
+                        let ([one], [other]) = (one, other);
+                        let apart = (one.first - other.first).norm() / size
+                            + (one.second - other.second).norm() / size.powi(2)
+                            + one.third.0.iter().zip(&other.third.0).map(|(a, b)| (a - b).abs()).sum::<f64>()
+                                / size.powi(3);
+                        let error = ((one.zeroth - other.zeroth).abs() + apart) / other.zeroth.abs();
+                        worst = worst.max(error);
+                        assert!(error < 2e-11, "{kernel:?}, order {order}, {direction:?}, {least:e} m: {error:e}");
+                    }
+                }
+            }
+        }
+        println!("worst relative difference {worst:.1e}");
+    }
+
     #[test]
     fn every_width_gives_the_same_bytes() {
-        let kernels = [6.0, 7.0, 3.0, 4.0, 6.3, 7.3, 1.0, 2.2, -1.0].map(Kernel::Power);
-        // A turned box: sixteen registers of one triangle, or two of eight with places to spare.
-        let turn = *nalgebra::Rotation3::new(Vec3::new(0.4, -1.1, 0.3)).matrix();
-        let facets = Facets::cuboid(&Vec3::new(0.1, 0.14, 0.2)).transformed(&turn, &Vec3::zeros());
-        for (height, direction) in [(0.15, Vec3::z()), (0.2, Vec3::new(0.6, 0.0, 0.8)), (3.0, turn * Vec3::x())] {
+        let directions = [(0.15, Vec3::z()), (0.2, Vec3::new(0.6, 0.0, 0.8)), (3.0, Vec3::x())];
+        for ((height, direction), facets) in directions.into_iter().flat_map(|at| boxes().map(|facets| (at, facets))) {
             let field = GapField::new(height, direction);
-            for kernel in kernels.into_iter().chain([Kernel::Log]) {
+            for kernel in kernels() {
                 for order in 0..4 {
                     let plan = FacetPlan::new(&[MomentRequest { kernel, order }]);
                     let widest = evaluate(Arch::new(), &facets, &field, &plan);

@@ -1,15 +1,16 @@
-//! A register of triangles and the step from scalar weights to tensors.
+//! A register of facets and the step from scalar weights to tensors.
 //!
 //! With the corners in the order of their gaps, d₀ ≤ d₁ ≤ d₂, and X = V₀ + λ₁ E₁ + λ₂ E₂, every moment of X follows
 //! from
 //!
-//!   J_ab = ∫ λ₁^a λ₂^b κ(d) dA,   a + b ≤ 3.
+//!   J_ab = ∫ λ₁^a λ₂^b κ(d) dA,   a + b ≤ 3,
 //!
+//! over λ₁ + λ₂ ≤ 1 for a triangle and λ₁, λ₂ ≤ 1 for a parallelogram, whose fourth corner has the gap d₃ ≥ d₂.
 //! Starting at the corner with the smallest gap keeps the tensors free of cancellation where κ is concentrated there.
 
 use pulp::Simd;
 
-use super::pack::{SplatField, TrianglePack, Vector};
+use super::pack::{FacetPack, SplatField, Vector};
 use crate::simd::{F64s, Log2, Row};
 
 /// J_ab for (a, b) = 00, 10, 01, 20, 11, 02, 30, 21, 12, 03; those above the wanted order have no meaning.
@@ -18,46 +19,97 @@ pub(super) type Weights<S> = [F64s<S>; 10];
 /// How many components the moments up to an order have, symmetric ones counted once.
 pub(super) const COMPONENTS: [usize; 4] = [1, 4, 10, 20];
 
-/// Triangles with their corners in the order of their gaps.
+/// Facets with their corners in the order of their gaps: triangles, or with `WHOLE` parallelograms.
 #[derive(Clone, Copy)]
-pub(super) struct Triangle<S: Simd> {
+pub(super) struct Facet<S: Simd, const WHOLE: bool> {
     /// d₀ ≤ d₁ ≤ d₂ [m].
     pub gaps: [F64s<S>; 3],
     /// 1/d [1/m].
     pub inverses: [F64s<S>; 3],
-    /// Twice the area [m²], deformed or not.
-    pub twice_area: F64s<S>,
+    /// d₃ and 1/d₃ of parallelograms.
+    pub farthest: (F64s<S>, F64s<S>),
+    /// |E₁×E₂| [m²], deformed or not.
+    pub spanned: F64s<S>,
     /// V₀.
     origin: Vector<S>,
     /// E₁ = V₁ − V₀, E₂ = V₂ − V₀.
     edges: [Vector<S>; 2],
 }
 
-/// What the split of a triangle at its middle level needs besides.
+/// What the split of a facet at the levels of its middle corners needs besides.
 #[derive(Clone, Copy)]
 pub(super) struct LevelSplit<S: Simd> {
     /// τ = (d₁ − d₀)/(d₂ − d₀) and 1 − τ.
     pub shares: [F64s<S>; 2],
-    /// Logarithms of the gaps.
-    pub logs: [Log2<S>; 3],
+    /// Logarithms of the gaps, that of d₃ the last.
+    pub logs: [Log2<S>; 4],
 }
 
-impl<S: Simd> Triangle<S> {
-    /// Sorts the corners of the triangles in one register of a pack; their integrals count with this area.
+impl<S: Simd, const WHOLE: bool> Facet<S, WHOLE> {
+    /// Sorts the corners of the facets in one register of a pack; their integrals count with this area.
     #[inline(always)]
-    pub fn new(pack: &TrianglePack, register: usize, field: &SplatField<S>, twice_area: F64s<S>) -> Self {
-        let simd = twice_area.simd;
+    pub fn new(pack: &FacetPack, register: usize, field: &SplatField<S>, spanned: F64s<S>) -> Self {
+        if WHOLE {
+            Self::parallelograms(pack, register, field, spanned)
+        } else {
+            Self::triangles(pack, register, field, spanned)
+        }
+    }
+
+    #[inline(always)]
+    fn triangles(pack: &FacetPack, register: usize, field: &SplatField<S>, spanned: F64s<S>) -> Self {
+        let simd = spanned.simd;
         let [mut a, mut b, mut c] = pack.corners(simd, register);
         let [mut low, mut middle, mut high] = field.gaps(&[a, b, c]);
         sort(&mut low, &mut a, &mut middle, &mut b);
         sort(&mut middle, &mut b, &mut high, &mut c);
         sort(&mut low, &mut a, &mut middle, &mut b);
+        let inverses = [1.0 / low, 1.0 / middle, 1.0 / high];
+        Self {
+            gaps: [low, middle, high],
+            inverses,
+            farthest: (high, inverses[2]),
+            spanned,
+            origin: a,
+            edges: [difference(&b, &a), difference(&c, &a)],
+        }
+    }
+
+    /// Turned over along each edge until V₀ is the corner next to the plane, and E₁ is the edge that rises less.
+    #[inline(always)]
+    fn parallelograms(pack: &FacetPack, register: usize, field: &SplatField<S>, spanned: F64s<S>) -> Self {
+        let simd = spanned.simd;
+        let [a, b, c] = pack.corners(simd, register);
+        let [mut low, mut middle, mut high] = field.gaps(&[a, b, c]);
+        let mut far = field.gap(&pack.opposite(simd, register));
+        let (mut one, mut other) = (difference(&b, &a), difference(&c, &a));
+        let over = middle.less_than(low);
+        over.exchange(&mut low, &mut middle);
+        over.exchange(&mut high, &mut far);
+        let across = high.less_than(low);
+        across.exchange(&mut low, &mut high);
+        across.exchange(&mut middle, &mut far);
+        let swapped = high.less_than(middle);
+        swapped.exchange(&mut middle, &mut high);
+        let mut origin = a;
+        for axis in 0..3 {
+            one[axis] = over.select(-one[axis], one[axis]);
+            other[axis] = across.select(-other[axis], other[axis]);
+            // From the middle, ½ (b + c).
+            origin[axis] = ((b[axis] + c[axis]) - (one[axis] + other[axis])) * 0.5;
+            swapped.exchange(&mut one[axis], &mut other[axis]);
+        }
+        // Rounding must not put gaps that are equal out of order.
+        middle = middle.less_than(low).select(low, middle);
+        high = high.less_than(middle).select(middle, high);
+        far = far.less_than(high).select(high, far);
         Self {
             gaps: [low, middle, high],
             inverses: [1.0 / low, 1.0 / middle, 1.0 / high],
-            twice_area,
-            origin: a,
-            edges: [difference(&b, &a), difference(&c, &a)],
+            farthest: (far, 1.0 / far),
+            spanned,
+            origin,
+            edges: [one, other],
         }
     }
 
@@ -72,9 +124,10 @@ impl<S: Simd> Triangle<S> {
         LevelSplit {
             shares: [proper.select((middle - low) / range, half), proper.select((high - middle) / range, half)],
             logs: if needs_logs {
-                [Log2::new(low), Log2::new(middle), Log2::new(high)]
+                let far = if WHOLE { Log2::new(self.farthest.0) } else { Log2::unread(simd) };
+                [Log2::new(low), Log2::new(middle), Log2::new(high), far]
             } else {
-                [Log2::unread(simd); 3]
+                [Log2::unread(simd); 4]
             },
         }
     }
@@ -101,13 +154,13 @@ fn difference<S: Simd>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
 /// Each order is built from the one below with the weights multiplied by λ₁ and λ₂: A_n = V₀ ⊗ A_(n−1)[J] + E₁ ⊗
 /// A_(n−1)[λ₁ J] + E₂ ⊗ A_(n−1)[λ₂ J], every factor being symmetric as a whole.
 #[inline(always)]
-pub(super) fn add_tensors<S: Simd, const ORDER: usize>(
+pub(super) fn add_tensors<S: Simd, const ORDER: usize, const WHOLE: bool>(
     sums: &mut [Row],
     j: &Weights<S>,
-    triangle: &Triangle<S>,
+    facet: &Facet<S, WHOLE>,
     register: usize,
 ) {
-    let Triangle { origin: v, edges: [e1, e2], .. } = triangle;
+    let Facet { origin: v, edges: [e1, e2], .. } = facet;
     let Some(sums) = sums.get_mut(..COMPONENTS[ORDER]) else { return };
     j[0].add_to(&mut sums[0], register);
     if ORDER == 0 {
