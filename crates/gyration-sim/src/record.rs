@@ -203,33 +203,49 @@ impl<'a> Job<'a> {
         let began = Instant::now();
         let outcome = simulation.run(&mut sink, watch)?;
         let elapsed = Some(began.elapsed());
+        let RecordingSink { writer, hash, .. } = sink;
+        let summary = self.close(path, (&mut simulation, outcome, elapsed), (writer, hash))?;
+        Ok(RecordingEnd::Ran(Box::new(summary)))
+    }
+
+    /// Ends a recording of the rows with this hash by what came of its run; a run that is not over is left as it may be
+    /// resumed.
+    ///
+    /// # Errors
+    /// Those of writing, and of reading what has been written.
+    pub fn close(
+        &self,
+        path: &Path,
+        (simulation, outcome, elapsed): (&mut Simulation, Outcome, Option<Duration>),
+        (mut writer, hash): (Writer, RowHash),
+    ) -> Result<RunSummary, RunError> {
         // What has been done is told though no time is left; of a run that was given up, unless that takes long.
         let told = match outcome.is_final() {
             true => Interruption::in_force().however_long(),
             false => Interruption::default().after(Some(TO_TELL)),
         };
-        let mut summary = told.within(|| RunSummary::of(self.model, &mut simulation, outcome, elapsed));
+        let mut summary = told.within(|| RunSummary::of(self.model, simulation, outcome, elapsed));
         let checkpoint = simulation.checkpoint();
         if summary.outcome.is_final() {
-            summary.row_hash = Some(sink.hash.to_string());
+            summary.row_hash = Some(hash.to_string());
             summary.warnings = Remarks::without_fluid(self.model, self.start, &self.plan).warnings;
             if LeftOut::may_be(self.model) {
                 // What came near is asked of the rows: they must be there.
-                sink.writer.flush(&checkpoint)?;
+                writer.flush(&checkpoint)?;
                 let left_out = LeftOut::in_rows(self.model, &Recording::open(path)?)?;
                 summary.warnings.extend(left_out.warnings(self.model));
             }
             if Stretched::may_be(self.model) {
-                sink.writer.flush(&checkpoint)?;
+                writer.flush(&checkpoint)?;
                 let stretched = Stretched::in_rows(self.model, &Recording::open(path)?)?;
                 summary.warnings.extend(stretched.warning(self.model));
             }
-            sink.writer.finish(summary.attributes(), &checkpoint)?;
+            writer.finish(summary.attributes(), &checkpoint)?;
         } else if simulation.is_whole() {
-            sink.writer.flush(&checkpoint)?;
+            writer.flush(&checkpoint)?;
         }
         // Within a step there is nothing to add to what the last flush has left.
-        Ok(RecordingEnd::Ran(Box::new(summary)))
+        Ok(summary)
     }
 
     /// What the recording holds.

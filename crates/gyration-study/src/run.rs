@@ -7,12 +7,11 @@ use crate::study::Study;
 use crate::value::{Row, Value};
 use gyration::dynamics::Exchange;
 use gyration::model::Model;
-use gyration_record::{RecordError, Writer, remove};
+use gyration_record::{RecordError, RowHash, Writer, remove};
 use gyration_scene::{Built, Scene, SceneErrors};
 use gyration_sim::events::Event;
 use gyration_sim::{
-    Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, RunPlan, RunSummary, Simulation, Sink, Verdict,
-    entries,
+    Job, Monitor, Outcome, Progress, Provenance, Reason, RunError, RunPlan, Simulation, Sink, Verdict, entries,
 };
 use gyration_threads::Interruption;
 use std::path::{Path, PathBuf};
@@ -122,8 +121,11 @@ impl Study {
             Ok(simulation) => simulation,
             Err(error) => return self.not_begun(error),
         };
-        let writer = recording.map(|path| created(path, scene)).transpose()?;
-        let mut sink = Tee { model, extractor, writer };
+        // The commit would make the bytes of recordings depend on where the program was built.
+        let provenance = Provenance { version: env!("CARGO_PKG_VERSION").to_owned(), commit: None };
+        let wanted = recording.map(|path| (path, Job::of(scene, &provenance)));
+        let writer = wanted.as_ref().map(|(path, job)| created(path, job)).transpose()?;
+        let mut sink = Tee { model, extractor, writer: writer.map(|writer| (writer, RowHash::default())) };
         if let Err(error) = simulation.begin(&mut sink) {
             return self.not_begun(error);
         }
@@ -140,10 +142,8 @@ impl Study {
         let ending = ending(&simulation, &outcome, limits.is_over, verdict);
         let is_early = matches!(outcome, Outcome::Stopped(_));
         let Tee { extractor, writer, .. } = sink;
-        if let Some(writer) = writer {
-            let checkpoint = simulation.checkpoint();
-            let summary = RunSummary::of(model, &mut simulation, outcome, None);
-            writer.finish(summary.attributes(), &checkpoint)?;
+        if let Some(((path, job), writer)) = wanted.zip(writer) {
+            job.close(path, (&mut simulation, outcome, None), writer).map_err(recorded)?;
         }
         Ok(Some(Ended { ending, kept: extractor.finish(), is_early }))
     }
@@ -165,9 +165,7 @@ impl Study {
 }
 
 /// A new recording; one that a broken run has left is removed.
-fn created(path: &Path, scene: &Scene) -> Result<Writer, StudyError> {
-    // Its commit would make the bytes of recordings depend on where the program was built.
-    let job = Job::of(scene, &Provenance { version: env!("CARGO_PKG_VERSION").to_owned(), commit: None });
+fn created(path: &Path, job: &Job) -> Result<Writer, StudyError> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(StudyError::io("make", folder))?;
     }
@@ -252,26 +250,28 @@ impl Monitor for RunLimits {
 struct Tee<'a> {
     model: &'a Model,
     extractor: Extractor,
-    writer: Option<Writer>,
+    /// With the hash of its rows.
+    writer: Option<(Writer, RowHash)>,
 }
 
 impl Sink for Tee<'_> {
     fn exchanges(&mut self, exchanges: &[Exchange]) -> Result<(), RecordError> {
         match &mut self.writer {
-            Some(writer) => writer.append_entries(entries(self.model, exchanges, &mut Vec::new())),
+            Some((writer, _)) => writer.append_entries(entries(self.model, exchanges, &mut Vec::new())),
             None => Ok(()),
         }
     }
 
     fn row(&mut self, time: f64, row: &[f64]) -> Result<(), RecordError> {
-        if let Some(writer) = &mut self.writer {
+        if let Some((writer, hash)) = &mut self.writer {
             writer.append(time, row)?;
+            hash.add_row(time, row);
         }
         self.extractor.row(time, row)
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
-        if let Some(writer) = &mut self.writer {
+        if let Some((writer, _)) = &mut self.writer {
             let Event { time, kind, body } = *event;
             writer.append_event(gyration_record::Event { time, kind, body: Some(body) })?;
         }

@@ -1,6 +1,6 @@
 //! What is kept of a run, against closed forms of free motion.
 
-use gyration_record::Recording;
+use gyration_record::{Recording, RowHash};
 use gyration_sim::Unwatched;
 use gyration_study::{Shard, Study, Table, Value, execute};
 use std::collections::BTreeMap;
@@ -139,7 +139,7 @@ fn recordings_are_left_of_those_that_are_asked_for() {
             let path = table.recordings().join(format!("run-{run:06}.gyr"));
             assert_eq!(path.exists(), expected.contains(&run), "{wanted}, {run}");
             if path.exists() {
-                has_ended(&path);
+                has_ended(&path, run != 1);
             }
         }
     }
@@ -160,7 +160,12 @@ fn what_is_kept_of_a_run_with_too_many_steps_is_of_its_last_one() {
     assert!(time > 0.0 && (way / time - 1.0).abs() < 1e-6, "{way} {time}");
 }
 
-fn has_ended(path: &Path) {
+/// Whoever is over has an outcome and the hash of its rows; whoever came to the end of its steps alone may go on.
+fn has_ended(path: &Path, is_over: bool) {
     let recording = Recording::open(path).unwrap();
-    assert!(recording.attributes().contains_key("outcome") && recording.rows() > 0);
+    let attributes = recording.attributes();
+    assert!(recording.rows() > 0);
+    assert_eq!(attributes.contains_key("outcome"), is_over);
+    let hash = RowHash::of_recording(&recording, recording.rows()).unwrap().to_string();
+    assert_eq!(attributes.get("row_hash").and_then(|told| told.as_str()), Some(&*hash).filter(|_| is_over));
 }
