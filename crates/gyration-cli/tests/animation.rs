@@ -204,3 +204,37 @@ fn long_recordings_are_thinned() {
     assert!((290..=320).contains(&times.len()), "{}", times.len());
     assert!((times[times.len() - 1] - 0.6).abs() < 1e-7 && times[0] == 0.0);
 }
+
+#[test]
+fn places_far_from_the_origin_are_told_from_a_point_among_the_bodies() {
+    let sandbox = Sandbox::new();
+    let scene = |x: f64| {
+        format!(
+            "time = {{ end = 0.2, sample = 0.01 }}\n[[support]]\nname = \"ground\"\nplane = {{ origin = [0, 0, -1] }}\n\
+             [[body]]\nname = \"ball\"\ndensity = 1000\nshape = {{ sphere = {{ radius = 1e-3 }} }}\nposition = [{x:?}, 0, 0]\n\
+             velocity = [0.1, 0, 0]\n[[body]]\nname = \"box\"\ndensity = 1000\nshape = {{ box = {{ size = [0.01, 0.01, 0.01] }} \
+             }}\nposition = [{x:?}, 0.05, 0]\n"
+        )
+    };
+    for (x, from) in [(6.4e6, "(6400000."), (-1000.0, "(-999.99"), (1.0, "")] {
+        fs::write(sandbox.path("far.toml"), scene(x)).unwrap();
+        sandbox.done(&["run", "far.toml", "--quiet", "--force"]);
+        let said = sandbox.done(&["export", "far.gyr", "--format", "gltf"]).stderr;
+        assert_eq!(said.contains("places from"), !from.is_empty(), "{said}");
+        assert!(said.contains(from), "{said}");
+        let animation = Animation::open(&sandbox.path("far.glb"));
+        // The first chunk, behind a head of twenty bytes, is the document.
+        let bytes = fs::read(sandbox.path("far.glb")).unwrap();
+        let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+        let document: serde_json::Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
+        let origin = document["asset"]["extras"]["origin"][0].as_f64().unwrap_or_default();
+        let ball = animation.node("ball").index();
+        let (times, values) = animation.keys(ball, gltf::animation::Property::Translation).unwrap();
+        let Values::Vectors(places) = values else { panic!("places") };
+        for (time, place) in times.iter().zip(places) {
+            let error = place.x + origin - (x + 0.1 * time);
+            let rounding = 1e-8 + 6e-8 * (x - origin).abs() + 1e-15 * x.abs();
+            assert!(error.abs() < rounding, "{x} {time} {error:e}");
+        }
+    }
+}

@@ -446,3 +446,18 @@ fn rest_before_what_drives_is_told() {
     assert!(notes(scene("", "max(0, t - 1)")).is_empty());
     assert!(notes(scene(rest, "x")).is_empty());
 }
+
+#[test]
+fn many_rigid_bodies_beside_one_that_deforms_are_told() {
+    let notes = |kind: &str, count: usize| {
+        let soft = "affine = { material = { neo_hookean = { shear = 1e4 } } }\n";
+        let first = ball("soft", 0.01, &format!("group = \"all\"\n{}", if kind == "soft" { soft } else { "" }));
+        let others: String = (1..=count)
+            .map(|k| ball(&format!("b{k}"), 0.01, &format!("group = \"all\"\n{}", at(k as f64 * 0.1))))
+            .collect();
+        remarks(&format!("{HEAD}{first}{others}{}", between("all", "all", "reach = 0.01"))).notes
+    };
+    let [told] = &notes("soft", 25)[..] else { panic!("{:?}", notes("soft", 25)) };
+    assert!(told.starts_with("\"soft\" deforms") && told.contains("25 rigid bodies share their steps"), "{told}");
+    assert!(notes("rigid", 25).is_empty() && notes("soft", 5).is_empty());
+}

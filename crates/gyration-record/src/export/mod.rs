@@ -11,6 +11,6 @@ pub mod vtk;
 
 pub use csv::{CsvTable, csv};
 pub use drawing::Outlines;
-pub use gltf::gltf;
+pub use gltf::{GltfMotion, gltf};
 #[cfg(not(target_family = "wasm"))]
 pub use npz::npz;

@@ -60,12 +60,15 @@ pub fn execute(arguments: &Export) -> Result<u8, CliError> {
             format!("{} samples", recording.rows())
         }
         ExportFormat::Gltf => {
-            let mut keys = 0;
+            let mut made = None;
             replace_file(&path, |partial| {
-                keys = written(partial, |out| export::gltf(&recording, out))?;
+                made = Some(written(partial, |out| export::gltf(&recording, out))?);
                 Ok(())
             })?;
-            format!("{keys} of {} samples", recording.rows())
+            let keys = made.map_or(0, |motion| motion.samples);
+            let origin = made.and_then(|motion| motion.origin);
+            let from = origin.map(|[x, y, z]| format!(", places from ({x:?}, {y:?}, {z:?}) m"));
+            format!("{keys} of {} samples{}", recording.rows(), from.unwrap_or_default())
         }
         ExportFormat::Gif => film::gif(&recording, arguments.span(), &path)?,
         ExportFormat::Mp4 => film::mp4(&recording, arguments.span(), &path)?,

@@ -8,7 +8,8 @@
 //! └── support, solid:  translation, rotation, its mesh
 //! ```
 //!
-//! Lengths in metres, times in seconds, from t = 0. Meshes of bodies with equal surfaces share their numbers.
+//! Lengths in metres, times in seconds, from t = 0. Meshes of bodies with equal surfaces share their numbers. Places are
+//! numbers of seven digits: those of bodies that are far from the origin are told from a point among them.
 
 mod container;
 mod factors;
@@ -38,18 +39,47 @@ const TRIANGLES: u32 = 4;
 /// By how much a wireframe is larger than its body, so that it lies outside the triangles.
 const LIFT: f64 = 1.003;
 
-/// Writes the motion as binary glTF; returns the number of samples that became keys, of the body of which most did.
+/// What of the smallest body rounding may move it by before places are told from a point among the bodies.
+const FINE: f64 = 1e-4;
+
+/// What has become of a motion as glTF.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GltfMotion {
+    /// The number of samples that became keys, of the body of which most did.
+    pub samples: usize,
+    /// The point from which places are told [m], if it is not the origin; the `asset` has it in its `extras`.
+    pub origin: Option<[f64; 3]>,
+}
+
+/// Writes the motion as binary glTF.
 ///
 /// # Errors
 /// `NoSurfaces` if the recording is older than they are; `Corrupt`; those of reading; `Io` if `out` fails, under the
 /// recording's path.
-pub fn gltf(recording: &Recording, out: &mut impl Write) -> Result<usize, RecordError> {
+pub fn gltf(recording: &Recording, out: &mut impl Write) -> Result<GltfMotion, RecordError> {
     let drawing = Drawing::of(recording)?;
     let rows = keys(&recording.times()?, drawing.bodies.len());
     let tracks = tracks(recording, &drawing, &rows)?;
     let document = GltfDocument::new(&drawing, &tracks);
+    let origin = document.origin.map(Into::into);
     document.write(recording, out).map_err(RecordError::io("write the glTF of", recording.path()))?;
-    Ok(tracks.iter().map(|track| track.samples).max().unwrap_or(rows.len()))
+    let samples = tracks.iter().map(|track| track.samples).max().unwrap_or(rows.len());
+    Ok(GltfMotion { samples, origin })
+}
+
+/// The middle of bodies so far from the origin that single precision would show; whole metres, or a size that is less.
+fn far_middle(drawing: &Drawing, tracks: &[Track]) -> Option<Vec3> {
+    let sizes = drawing.bodies.iter().map(|body| body.size).filter(|size| *size > 0.0);
+    let smallest = sizes.fold(f64::INFINITY, f64::min);
+    let places = || tracks.iter().flat_map(|track| &track.positions);
+    let first = places().next()?;
+    let (low, high) = places().fold((*first, *first), |(low, high), place| (low.inf(place), high.sup(place)));
+    let farthest = low.amax().max(high.amax());
+    if farthest * f64::from(f32::EPSILON) <= FINE * smallest {
+        return None;
+    }
+    let unit = smallest.min(1.0);
+    Some((0.5 * (low + high)).map(|entry| (entry / unit).round() * unit))
 }
 
 /// The document under construction.
@@ -61,11 +91,13 @@ struct GltfDocument {
     materials: Vec<Value>,
     samplers: Vec<Value>,
     channels: Vec<Value>,
+    /// The point from which places are told, if it is not the origin.
+    origin: Option<Vec3>,
 }
 
 impl GltfDocument {
     fn new(drawing: &Drawing, tracks: &[Track]) -> Self {
-        let mut this = Self::default();
+        let mut this = Self { origin: far_middle(drawing, tracks), ..Self::default() };
         let up = UnitQuaternion::rotation_between(&drawing.up, &Vec3::y());
         // Straight down to up: half a turn about x.
         let up = up.unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI));
@@ -88,6 +120,11 @@ impl GltfDocument {
         this
     }
 
+    /// A place, from the point from which they are told.
+    fn place(&self, place: &Vec3) -> [f32; 3] {
+        single(&(place - self.origin.unwrap_or_default()))
+    }
+
     /// Vertices and triangles of a surface, without a material yet.
     fn surface(&mut self, surface: &super::drawing::SurfaceMesh) -> Value {
         let shaded = shaded(surface);
@@ -106,9 +143,9 @@ impl GltfDocument {
             self.nodes.push(json!({ "name": figure.name, "mesh": mesh }));
             return outer;
         };
-        let mut node = json!({ "name": figure.name, "translation": single(position) });
+        let mut node = json!({ "name": figure.name, "translation": self.place(position) });
         let times = self.times(&track.times);
-        let positions: Vec<_> = track.positions.iter().map(single).collect();
+        let positions: Vec<_> = track.positions.iter().map(|position| self.place(position)).collect();
         self.animate(outer, "translation", times, &positions);
         if figure.is_rigid() {
             // U and Vᵀ of a rotation are any pair with the product P.
@@ -192,9 +229,10 @@ impl GltfDocument {
         (center, turn): (&Vec3, &UnitQuaternion<f64>),
         (motion, times): (&DrawnMotion, &[f64]),
     ) -> usize {
+        let origin = self.origin.unwrap_or_default();
         let at = |time: f64| {
             let (by, shift) = motion.carried(time);
-            (single(&(by * center + shift)), by * turn)
+            (single(&(by * center + shift - origin)), by * turn)
         };
         let node = self.nodes.len();
         let (place, turned) = at(times.first().copied().unwrap_or(0.0));
@@ -252,6 +290,9 @@ impl GltfDocument {
             "meshes": self.meshes,
             "materials": self.materials,
         });
+        if let Some(origin) = self.origin {
+            document["asset"]["extras"] = json!({ "origin": [origin.x, origin.y, origin.z] });
+        }
         if !self.channels.is_empty() {
             document["animations"] = json!([{ "name": title, "channels": self.channels, "samplers": self.samplers }]);
         }

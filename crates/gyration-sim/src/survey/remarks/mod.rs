@@ -64,6 +64,7 @@ impl Remarks {
         remarks.notes.extend(turning::notes(model));
         remarks.notes.extend(begun::notes(model, start));
         remarks.notes.extend(reachless::notes(model, start));
+        remarks.notes.extend(reachless::beside_deforming(model));
         remarks.notes.extend(felt::notes(model));
         remarks.notes.extend(resting::note(model, plan));
         remarks.warnings.extend(felt::warning(model));

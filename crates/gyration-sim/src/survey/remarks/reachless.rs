@@ -1,4 +1,5 @@
-//! Contacts of many bodies without a reach: what that costs, and which reach changes little.
+//! Contacts of many bodies without a reach, or of those that deform, which have none: what that costs, and which reach
+//! changes little.
 //!
 //! Proposed are 25 gaps g of the fastest two of its bodies, or twice as many until g changes by no more than a
 //! hundredth of itself, δg/g = 5 U_c/(g F).
@@ -7,7 +8,7 @@ use super::joined::Joined;
 use crate::format::significant;
 use crate::survey::meetings::EVALUATIONS;
 use gyration::model::Model;
-use gyration::neighbours::Pair;
+use gyration::neighbours::{Pair, PairRule};
 use gyration::pair::{Falling, Mass, PairForm, Reach};
 use gyration::state::State;
 use std::sync::Arc;
@@ -33,6 +34,28 @@ pub(super) fn notes(model: &Model, start: &State) -> Vec<String> {
     let without = rules.filter(|(_, rule)| rule.reach.is_none() && model.images().is_none()).map(|(rule, _)| rule);
     let many = without.filter(|rule| Joined::of_rule(model, *rule).nth(MANY_PAIRS).is_some());
     many.filter_map(|rule| note(model, start, rule)).take(MOST_TOLD).collect()
+}
+
+/// What must be told of many rigid bodies that share their steps since others deform, with a reach or not.
+pub(super) fn beside_deforming(model: &Model) -> Vec<String> {
+    let rules = model.rules().all().iter().filter(|rule| rule.reach.is_some() && model.images().is_none());
+    let note = |rule: &PairRule| {
+        let deforms = |body: &usize| model.bodies[*body].affine().is_some();
+        let bodies = || rule.bodies.iter().flat_map(|set| set.iter().copied());
+        let soft = bodies().find(deforms)?;
+        let mut rigid: Vec<usize> = bodies().filter(|body| !deforms(body)).collect();
+        rigid.sort_unstable();
+        rigid.dedup();
+        (rigid.len() >= MANY_PAIRS).then(|| {
+            format!(
+                "\"{}\" deforms and acts on all that it has a contact with, however far they are: {} rigid bodies share \
+                 their steps for that",
+                model.name(soft),
+                rigid.len()
+            )
+        })
+    };
+    rules.filter_map(note).take(MOST_TOLD).collect()
 }
 
 fn note(model: &Model, start: &State, rule: usize) -> Option<String> {
