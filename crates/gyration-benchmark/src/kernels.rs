@@ -1,8 +1,8 @@
 //! What one call of the mechanics costs: rates and Jacobian of a body near a plane, rates of two bodies that meet and
 //! of a soft cube alone.
 //!
-//! The floor is that of the moments of a box: six parallelograms, of which each takes 496 products and sums for the loads
-//! of three laws, 1,060 with their derivatives (counted in the formulas, `bench/2026-12-01-faces.md`).
+//! The floor is that of the moments of a box: six parallelograms, of which each takes 496 products and sums for the
+//! loads of three laws, 1,060 with their derivatives (counted in the formulas, `bench/2026-12-01-faces.md`).
 
 use crate::arithmetic::Arithmetic;
 use crate::clock::seconds_in_batches;

@@ -77,9 +77,9 @@ impl Integrator {
         Self::assemble(progress, vectors, options)
     }
 
-    /// The same after other integrations, whose parts are its own: what the numbers of y lack of twice their digits, and
-    /// the stepper in charge with the votes on it. The widest of those before decides, of those that are implicit if
-    /// there are any: a whole is as stiff as the stiffest of its parts.
+    /// The same after other integrations, whose parts are its own: what the numbers of y lack of twice their digits,
+    /// and the stepper in charge with the votes on it. The widest of those before decides, of those that are implicit
+    /// if there are any: a whole is as stiff as the stiffest of its parts.
     ///
     /// # Panics
     /// If `low` has not the size of y.

@@ -8,8 +8,8 @@
 //! └── support, solid:  translation, rotation, its mesh
 //! ```
 //!
-//! Lengths in metres, times in seconds, from t = 0. Meshes of bodies with equal surfaces share their numbers. Places are
-//! numbers of seven digits: those of bodies that are far from the origin are told from a point among them.
+//! Lengths in metres, times in seconds, from t = 0. Meshes of bodies with equal surfaces share their numbers. Places
+//! are numbers of seven digits: those of bodies that are far from the origin are told from a point among them.
 
 mod container;
 mod factors;

@@ -1,9 +1,9 @@
 //! Flat facets: triangles, over which the contact integrals are exact whatever the gap.
 //!
-//! Two that stand behind each other and make up a parallelogram, as the faces of a box do, are integrated as one. Facets
-//! are kept in packs of eight, corner by corner and component by component (`pack`), and a call works on as many of them
-//! at once as the registers of the processor hold (`simd`): gaps, corners put in order, the weights of each request
-//! (`plan`), tensors, sums. A mesh of any size needs no scratch memory.
+//! Two that stand behind each other and make up a parallelogram, as the faces of a box do, are integrated as one.
+//! Facets are kept in packs of eight, corner by corner and component by component (`pack`), and a call works on as many
+//! of them at once as the registers of the processor hold (`simd`): gaps, corners put in order, the weights of each
+//! request (`plan`), tensors, sums. A mesh of any size needs no scratch memory.
 //!
 //! Facets are for polyhedra and meshes: a cylinder made of facets does not roll. X is relative to the centre of mass.
 

@@ -11,8 +11,8 @@
 //! need no special case: τ is then any number in [0, 1].
 //!
 //! A parallelogram is cut by the level lines of its two middle corners. The lower part is that of the triangle, and the
-//! same from the opposite corner the upper one, λ₁ = 1 − (1 − x)(1 − u), λ₂ = 1 − τ (1 − x) u with d = d₂ + x (d₃ − d₂);
-//! between them
+//! same from the opposite corner the upper one, λ₁ = 1 − (1 − x)(1 − u), λ₂ = 1 − τ (1 − x) u with d = d₂ + x (d₃ −
+//! d₂); between them
 //!
 //!   λ₁ = 1 − u,   λ₂ = (1 − τ) x + τ u,   d = d₁ + x (d₂ − d₁),   dA = (1 − τ) |E₁×E₂| dx du
 
@@ -153,8 +153,8 @@ fn add_between<S: Simd, const ORDER: usize>(
     weights[9] += (third + (second * tau) * 1.5) + (mixed * tau + (twice * tau) * 0.25);
 }
 
-/// Upper part of a parallelogram, the lower one from the opposite corner: with J′_ab = w τ^b E_ab ∫ (1 − x)^(a+b+1) κ dx
-/// there, J_ab += Σ_ij (a over i) (b over j) (−1)^(i+j) J′_ij.
+/// Upper part of a parallelogram, the lower one from the opposite corner: with J′_ab = w τ^b E_ab ∫ (1 − x)^(a+b+1) κ
+/// dx there, J_ab += Σ_ij (a over i) (b over j) (−1)^(i+j) J′_ij.
 #[inline(always)]
 fn add_opposite<S: Simd, const ORDER: usize>(
     weights: &mut Weights<S>,
