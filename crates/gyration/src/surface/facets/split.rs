@@ -165,11 +165,11 @@ fn add_opposite<S: Simd, const ORDER: usize>(
     // ∫ (1 − x)^k x^j κ dx from those with k − 1: the near end dominates, so that little cancels.
     let mut falling = *m;
     let mut own = [falling[0]; HIGHEST_DEGREE + 1];
-    for k in 1..=ORDER + 1 {
+    for (k, own) in own.iter_mut().enumerate().take(ORDER + 2).skip(1) {
         for j in 0..=ORDER + 1 - k {
             falling[j] = falling[j] - falling[j + 1];
         }
-        own[k] = falling[0];
+        *own = falling[0];
     }
     let mut j = *weights;
     set_lower::<S, ORDER>(&mut j, &own, w, tau);
