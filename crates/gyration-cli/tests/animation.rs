@@ -208,16 +208,19 @@ fn long_recordings_are_thinned() {
 #[test]
 fn places_far_from_the_origin_are_told_from_a_point_among_the_bodies() {
     let sandbox = Sandbox::new();
-    let scene = |x: f64| {
+    let scene = |x: f64, other: f64| {
         format!(
             "time = {{ end = 0.2, sample = 0.01 }}\n[[support]]\nname = \"ground\"\nplane = {{ origin = [0, 0, -1] }}\n\
              [[body]]\nname = \"ball\"\ndensity = 1000\nshape = {{ sphere = {{ radius = 1e-3 }} }}\nposition = [{x:?}, 0, 0]\n\
              velocity = [0.1, 0, 0]\n[[body]]\nname = \"box\"\ndensity = 1000\nshape = {{ box = {{ size = [0.01, 0.01, 0.01] }} \
-             }}\nposition = [{x:?}, 0.05, 0]\n"
+             }}\nposition = [{other:?}, 0.05, 0]\n"
         )
     };
-    for (x, from) in [(6.4e6, "(6400000."), (-1000.0, "(-999.99"), (1.0, "")] {
-        fs::write(sandbox.path("far.toml"), scene(x)).unwrap();
+    // About the origin numbers are as large from anywhere.
+    let cases =
+        [(6.4e6, 6.4e6, "(6400000."), (-1000.0, -1000.0, "(-999.99"), (1.0, 1.0, ""), (-1000.0, 1000.0 - 0.02, "")];
+    for (x, other, from) in cases {
+        fs::write(sandbox.path("far.toml"), scene(x, other)).unwrap();
         sandbox.done(&["run", "far.toml", "--quiet", "--force"]);
         let said = sandbox.done(&["export", "far.gyr", "--format", "gltf"]).stderr;
         assert_eq!(said.contains("places from"), !from.is_empty(), "{said}");

@@ -445,6 +445,9 @@ fn rest_before_what_drives_is_told() {
     assert!(told.contains("slower than 0.000001 m/s for 0.2 s, the run ends"), "{told}");
     assert!(notes(scene("", "max(0, t - 1)")).is_empty());
     assert!(notes(scene(rest, "x")).is_empty());
+    let plane = |motion: &str| format!("{}[[support]]\nname = \"p\"\nplane = {{}}\n{motion}", scene(rest, "x"));
+    let told = |motion: &str| notes(plane(motion)).iter().any(|note| note.contains("slower than"));
+    assert!(told("motion = { velocity = [0, 0, 0.1] }\n") && !told(""));
 }
 
 #[test]

@@ -78,8 +78,13 @@ fn far_middle(drawing: &Drawing, tracks: &[Track]) -> Option<Vec3> {
     if farthest * f64::from(f32::EPSILON) <= FINE * smallest {
         return None;
     }
+    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low).amax());
+    // Else the numbers are as large from there.
+    if middle.amax() <= half {
+        return None;
+    }
     let unit = smallest.min(1.0);
-    Some((0.5 * (low + high)).map(|entry| (entry / unit).round() * unit))
+    Some(middle.map(|entry| (entry / unit).round() * unit))
 }
 
 /// The document under construction.

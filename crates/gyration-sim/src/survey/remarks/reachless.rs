@@ -38,7 +38,9 @@ pub(super) fn notes(model: &Model, start: &State) -> Vec<String> {
 
 /// What must be told of many rigid bodies that share their steps since others deform, with a reach or not.
 pub(super) fn beside_deforming(model: &Model) -> Vec<String> {
-    let rules = model.rules().all().iter().filter(|rule| rule.reach.is_some() && model.images().is_none());
+    if model.images().is_some() {
+        return Vec::new();
+    }
     let note = |rule: &PairRule| {
         let deforms = |body: &usize| model.bodies[*body].affine().is_some();
         let bodies = || rule.bodies.iter().flat_map(|set| set.iter().copied());
@@ -55,7 +57,7 @@ pub(super) fn beside_deforming(model: &Model) -> Vec<String> {
             )
         })
     };
-    rules.filter_map(note).take(MOST_TOLD).collect()
+    model.rules().all().iter().filter_map(note).take(MOST_TOLD).collect()
 }
 
 fn note(model: &Model, start: &State, rule: usize) -> Option<String> {

@@ -7,13 +7,11 @@
 
 use pulp::Simd;
 
+use crate::extended::Extended;
 use crate::simd::{F64s, Row, WIDTH};
 use crate::surface::GapField;
 use crate::surface::gap::GapLack;
 use crate::tensor::Vec3;
-
-/// How far the corners of a parallelogram may be off, as a part of its edges: their rounding.
-const FLAT: f64 = 4.0 * f64::EPSILON;
 
 /// Three components in lanes.
 pub(super) type Vector<S> = [F64s<S>; 3];
@@ -52,7 +50,8 @@ impl Corners {
         (b - a).cross(&(c - a))
     }
 
-    /// The parallelogram that two triangles next to each other make up, if it is one.
+    /// The parallelogram that two triangles next to each other make up, if it is one to the last digit: gaps may have
+    /// twice the digits of corners, and a face that is twisted by their rounding has no energy of which its forces are.
     pub fn joined(one: &[Vec3; 3], other: &[Vec3; 3]) -> Option<Self> {
         // The corner of each that the other has not.
         let alone = |own: &[Vec3; 3], other: &[Vec3; 3]| {
@@ -61,8 +60,8 @@ impl Corners {
         };
         let (from, opposite) = (alone(one, other)?, other[alone(other, one)?]);
         let [a, b, c] = [one[from], one[(from + 1) % 3], one[(from + 2) % 3]];
-        let (off, size) = (b + c - a - opposite, (b - a).amax().max((c - a).amax()));
-        (off.amax() <= FLAT * size).then_some(Self([a, b, c, opposite]))
+        let is_flat = (0..3).all(|axis| Extended::sum(b[axis], c[axis]) == Extended::sum(a[axis], opposite[axis]));
+        is_flat.then_some(Self([a, b, c, opposite]))
     }
 }
 

@@ -234,7 +234,7 @@ impl WithSimd for Smallest<'_> {
 mod tests {
     use super::super::Facets;
     use super::*;
-    use crate::surface::{Kernel, MomentRequest};
+    use crate::surface::{Kernel, MomentRequest, Surface};
     use pulp::Arch;
 
     /// The rows of a plan, undeformed and deformed added and folded, and the smallest gap, with one instruction set.
@@ -252,10 +252,9 @@ mod tests {
         powers.into_iter().chain([Kernel::Log])
     }
 
-    /// A turned box, and the same of triangles in an order in which no two behind each other make up a face.
+    /// A box, and the same of triangles in an order in which no two behind each other make up a face.
     fn boxes() -> [Facets; 2] {
-        let turn = *nalgebra::Rotation3::new(Vec3::new(0.4, -1.1, 0.3)).matrix();
-        let whole = Facets::cuboid(&Vec3::new(0.1, 0.14, 0.2)).transformed(&turn, &Vec3::zeros());
+        let whole = Facets::cuboid(&Vec3::new(0.1, 0.14, 0.2));
         let order = (0..12).step_by(2).chain((1..12).step_by(2));
         let triangles: Vec<_> = order.map(|place| whole.triangles[place]).collect();
         let halves = Facets::new(&whole.vertices, &triangles).unwrap();
@@ -264,18 +263,32 @@ mod tests {
     }
 
     #[test]
+    fn faces_are_whole_to_the_last_digit_or_not_at_all() {
+        // Off the origin faces stay what they are; corners that are turned are rounded, and off by that.
+        let [whole, _] = boxes();
+        let moved = whole.transformed(&Mat3::identity(), &Vec3::new(0.3, 1e3, -0.7));
+        let turn = *nalgebra::Rotation3::new(Vec3::new(0.4, -1.1, 0.3)).matrix();
+        let turned = whole.transformed(&turn, &Vec3::zeros());
+        assert_eq!([&whole, &moved, &turned].map(|facets| facets.packs.len()), [1, 1, 2]);
+    }
+
+    #[test]
     fn parallelograms_are_two_triangles() {
         let [whole, halves] = boxes();
         let size = 0.25;
         let mut worst: f64 = 0.0;
-        let directions =
-            [Vec3::z(), Vec3::new(0.6, 0.0, 0.8), whole.vertices[3] - whole.vertices[1], whole.vertices[5]].into_iter();
-        let near = 1.0 + 1e-7;
-        for (direction, least) in directions.flat_map(|along| [1e-9, 1e-5, 0.01, 3.0].map(|least| (along, least))) {
-            for turned in [1.0, near] {
-                let direction = direction.component_mul(&Vec3::new(1.0, turned, 1.0)).normalize();
-                let lowest = whole.smallest_gap(&GapField::new(0.0, direction)).0;
-                let field = GapField::new(least - lowest, direction);
+        let directions = [
+            Vec3::z(),
+            Vec3::new(1e-9, -3e-9, 1.0),
+            Vec3::new(0.6, 0.0, 0.8),
+            Vec3::new(-0.3, 0.5, 1.0),
+            whole.vertices[5],
+        ];
+        let leasts = [1e-12, 1e-9, 1e-5, 0.01, 3.0];
+        let surface = Surface::from_facets(whole.clone());
+        for (direction, least) in directions.iter().flat_map(|along| leasts.map(|least| (along.normalize(), least))) {
+            let lowest = whole.smallest_gap(&GapField::new(0.0, direction)).0;
+            for field in [GapField::new(least - lowest, direction), surface.field_at(least, direction)] {
                 for kernel in kernels() {
                     for order in 0..4 {
                         let requests = [MomentRequest { kernel, order }];
