@@ -211,9 +211,9 @@ fn places_far_from_the_origin_are_told_from_a_point_among_the_bodies() {
     let scene = |x: f64, other: f64| {
         format!(
             "time = {{ end = 0.2, sample = 0.01 }}\n[[support]]\nname = \"ground\"\nplane = {{ origin = [0, 0, -1] }}\n\
-             [[body]]\nname = \"ball\"\ndensity = 1000\nshape = {{ sphere = {{ radius = 1e-3 }} }}\nposition = [{x:?}, 0, 0]\n\
-             velocity = [0.1, 0, 0]\n[[body]]\nname = \"box\"\ndensity = 1000\nshape = {{ box = {{ size = [0.01, 0.01, 0.01] }} \
-             }}\nposition = [{other:?}, 0.05, 0]\n"
+             [[body]]\nname = \"ball\"\ndensity = 1000\nshape = {{ sphere = {{ radius = 1e-3 }} }}\n\
+             position = [{x:?}, 0, 0]\nvelocity = [0.1, 0, 0]\n[[body]]\nname = \"box\"\ndensity = 1000\n\
+             shape = {{ box = {{ size = [0.01, 0.01, 0.01] }} }}\nposition = [{other:?}, 0.05, 0]\n"
         )
     };
     // About the origin numbers are as large from anywhere.

@@ -50,8 +50,8 @@ pub(super) fn beside_deforming(model: &Model) -> Vec<String> {
         rigid.dedup();
         (rigid.len() >= MANY_PAIRS).then(|| {
             format!(
-                "\"{}\" deforms and acts on all that it has a contact with, however far they are: {} rigid bodies share \
-                 their steps for that",
+                "\"{}\" deforms and acts on all that it has a contact with, however far they are: {} rigid bodies \
+                 share their steps for that",
                 model.name(soft),
                 rigid.len()
             )

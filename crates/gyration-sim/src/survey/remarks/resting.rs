@@ -13,8 +13,8 @@ pub(super) fn note(model: &Model, plan: &RunPlan) -> Option<String> {
         return None;
     }
     Some(format!(
-        "`stop_at_rest` looks at speeds alone, and what is driven here may move later: slower than {} m/s for {} s, the \
-         run ends, whatever the drive does after that",
+        "`stop_at_rest` looks at speeds alone, and what is driven here may move later: slower than {} m/s for {} s, \
+         the run ends, whatever the drive does after that",
         rest.speed, rest.hold
     ))
 }
