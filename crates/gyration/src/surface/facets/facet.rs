@@ -11,7 +11,7 @@
 use pulp::Simd;
 
 use super::pack::{FacetPack, SplatField, Vector};
-use crate::simd::{F64s, Log2, Row};
+use crate::simd::{F64s, Log2, Row, WIDTH, fold};
 
 /// J_ab for (a, b) = 00, 10, 01, 20, 11, 02, 30, 21, 12, 03; those above the wanted order have no meaning.
 pub(super) type Weights<S> = [F64s<S>; 10];
@@ -130,6 +130,36 @@ impl<S: Simd, const WHOLE: bool> Facet<S, WHOLE> {
                 [Log2::unread(simd); 4]
             },
         }
+    }
+}
+
+/// The gaps that a pass has met.
+#[derive(Clone, Copy)]
+pub(super) struct GapsSeen<S: Simd> {
+    lowest: F64s<S>,
+    total: F64s<S>,
+}
+
+impl<S: Simd> GapsSeen<S> {
+    #[inline(always)]
+    pub fn new(simd: S) -> Self {
+        Self { lowest: F64s::splat(simd, f64::INFINITY), total: F64s::splat(simd, 0.0) }
+    }
+
+    #[inline(always)]
+    pub fn add<const WHOLE: bool>(&mut self, facet: &Facet<S, WHOLE>) {
+        let [low, middle, high] = facet.gaps;
+        self.lowest = low.less_than(self.lowest).select(low, self.lowest);
+        self.total += (low + middle) + (high + facet.farthest.0);
+    }
+
+    /// Whether all of them are positive and finite.
+    #[inline(always)]
+    pub fn are_open(&self) -> bool {
+        // A sum of gaps is finite if all of them are; what is smaller than a normal number has no reciprocal.
+        let mut sums = [0.0; WIDTH];
+        self.total.add_to(&mut sums, 0);
+        self.lowest.smallest() >= f64::MIN_POSITIVE && fold(&sums).is_finite()
     }
 }
 

@@ -7,10 +7,10 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::facet::Facet;
-use super::pack::{FacetPack, Outline, SplatField, Vector};
+use super::facet::GapsSeen;
+use super::pack::{FacetPack, SplatField, Vector};
 use super::plan::{BATCH, FacetPlan, MOST_ROWS};
-use super::sums::{FacetRequest, GapsSeen, SplatMatrix, add_folded, length};
+use super::sums::{FacetRequest, SplatMatrix, add_folded, length};
 use crate::simd::{F64s, Row, WIDTH, dispatch, fold};
 use crate::surface::oriented::{FOURTH, PAIRS};
 use crate::surface::{GapField, OrientedMoments};
@@ -78,18 +78,7 @@ impl WithSimd for OrientedPass<'_> {
                 let spanned = length(&vector);
                 let used = plan.row_count().min(self.own.len());
                 self.own[..used].fill([0.0; WIDTH]);
-                match pack.outline {
-                    Outline::Triangle => {
-                        let facet = Facet::<S, false>::new(pack, register, &field, spanned);
-                        seen.add(&facet);
-                        plan.add(&facet, 0, self.own);
-                    }
-                    Outline::Parallelogram => {
-                        let facet = Facet::<S, true>::new(pack, register, &field, spanned);
-                        seen.add(&facet);
-                        plan.add(&facet, 0, self.own);
-                    }
-                }
+                plan.add_register((pack, register), (&field, spanned), &mut seen, (self.own, 0));
                 self.add(&products(&vector, spanned), used, register);
             }
         }

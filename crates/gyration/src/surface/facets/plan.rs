@@ -10,8 +10,9 @@
 
 use pulp::Simd;
 
-use super::facet::{COMPONENTS, Facet, LevelSplit, Weights, add_tensors};
+use super::facet::{COMPONENTS, Facet, GapsSeen, LevelSplit, Weights, add_tensors};
 use super::integer::IntegerExponent;
+use super::pack::{FacetPack, Outline, SplatField};
 use super::split::SplitKernel;
 use crate::simd::{F64s, Row};
 use crate::surface::{Kernel, MomentRequest};
@@ -112,9 +113,33 @@ impl FacetPlan {
         self.places[request]
     }
 
-    /// Adds the moments of the facets in a register to the rows of sums.
+    /// Adds the moments of the facets in a register of a pack, which count with this area, to that register of the rows
+    /// of sums, and their gaps to those that are seen.
     #[inline(always)]
-    pub(super) fn add<S: Simd, const WHOLE: bool>(&self, facet: &Facet<S, WHOLE>, register: usize, sums: &mut [Row]) {
+    pub(super) fn add_register<S: Simd>(
+        &self,
+        (pack, register): (&FacetPack, usize),
+        (field, spanned): (&SplatField<S>, F64s<S>),
+        seen: &mut GapsSeen<S>,
+        (rows, place): (&mut [Row], usize),
+    ) {
+        match pack.outline {
+            Outline::Triangle => {
+                let facet = Facet::<S, false>::new(pack, register, field, spanned);
+                seen.add(&facet);
+                self.add(&facet, place, rows);
+            }
+            Outline::Parallelogram => {
+                let facet = Facet::<S, true>::new(pack, register, field, spanned);
+                seen.add(&facet);
+                self.add(&facet, place, rows);
+            }
+        }
+    }
+
+    /// Adds the moments of facets to a register of the rows of sums.
+    #[inline(always)]
+    fn add<S: Simd, const WHOLE: bool>(&self, facet: &Facet<S, WHOLE>, register: usize, sums: &mut [Row]) {
         let mut weights = [F64s::splat(facet.spanned.simd, 0.0); 10];
         let levels = if self.splits { Some(facet.levels(self.needs_logs)) } else { None };
         for step in &self.steps[..self.count] {
