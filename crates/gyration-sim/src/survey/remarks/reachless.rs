@@ -17,6 +17,8 @@ use std::sync::Arc;
 const MOST_TOLD: usize = 12;
 /// Pairs of a contact from which on it costs that none is too far to be looked at.
 const MANY_PAIRS: usize = 20;
+/// Rigid bodies that share their steps with one that deforms from which on that is told.
+const MANY_RIGID: usize = 20;
 /// Bodies of the larger of both sets from which on it is told what that costs.
 const MANY_BODIES: usize = 200;
 /// Pairs of a contact of which the fastest is looked at.
@@ -48,7 +50,7 @@ pub(super) fn beside_deforming(model: &Model) -> Vec<String> {
         let mut rigid: Vec<usize> = bodies().filter(|body| !deforms(body)).collect();
         rigid.sort_unstable();
         rigid.dedup();
-        (rigid.len() >= MANY_PAIRS).then(|| {
+        (rigid.len() >= MANY_RIGID).then(|| {
             format!(
                 "\"{}\" deforms and acts on all that it has a contact with, however far they are: {} rigid bodies \
                  share their steps for that",
